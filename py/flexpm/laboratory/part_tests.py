@@ -19,7 +19,7 @@ from ..models.grains import Model
 from ..results.result import Result
 from ..rigs.part_rig import PartRig
 from ..rigs.parts import Part
-from ..rigs.solids.beam_rig import SolidBeamRig
+from ..rigs.solids.part_rig import SolidPartRig
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Runner
 from ..specimens.space.notch import NotchedSolid, notched
@@ -83,12 +83,12 @@ def _require_ligament(spec: RunSpec, cut: Specimen | SolidSpecimen, material: Ma
         )
 
 
-def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig | SolidBeamRig:
+def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig | SolidPartRig:
     """A built specimen between the parts of its test."""
     assert spec.kind.layout is not None, spec.test
     layout = spec.kind.layout(_frame_of(spec, built))
     if spec.is_solid:
-        return SolidBeamRig(built, layout, test=spec.test, runner=runner)
+        return SolidPartRig(built, layout, test=spec.test, runner=runner)
     rig = PartRig(built, kind=spec.test, runner=runner)
     parts = {name: _lay(rig, plate) for name, plate in layout.plates.items()}
     if layout.pressed:
@@ -110,7 +110,7 @@ def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig | So
     return rig
 
 
-def measure(result: Result, rig: PartRig | SolidBeamRig, spec: RunSpec) -> None:
+def measure(result: Result, rig: PartRig | SolidPartRig, spec: RunSpec) -> None:
     """Fill what the test measures beside its peak."""
     if spec.kind.measure is None:
         return

@@ -21,10 +21,10 @@ from ..kinds.registry import kind_of
 from ..models.grains import Model
 from ..require import nearest, quoted
 from ..results import doubts, measures
-from ..results.record import COLUMNS, Curve
+from ..results.record import Curve
 from ..runs.loading_rate import SLOWEST_WAIT, Scales, Schedule
 from ..runs.runner import Runner
-from .readings import Balance, Readings, part_of
+from .readings import Balance, Readings, curve_of, part_of
 from .rig import BOTTOM, LEFT, RIGHT, TOP, TestRig
 
 #: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
@@ -52,6 +52,8 @@ class GrainRig(TestRig):
     ) -> None:
         """Take grains that have just been built, or whose scene has been loaded."""
         super().__init__(built, tension=tension, runner=runner)
+        #: Columns of the record by the second names that they are known by, too.
+        self._same: dict[str, str] = {}
         self._recorder = built.engine(wrapper.AxialRecorder) or wrapper.AxialRecorder(
             frame=self._new_frame()
         )
@@ -59,9 +61,7 @@ class GrainRig(TestRig):
     @property
     def record(self) -> Curve:
         """The record so far."""
-        names = self._recorder.names
-        own = [name for name in names if name not in (*COLUMNS, "initial_energy")]
-        return Curve.from_columns(names, self._recorder.rows, own)
+        return curve_of(self._recorder, self._same)
 
     @property
     def warnings(self) -> list[str]:

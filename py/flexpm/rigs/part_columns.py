@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-import numpy as np
 from yade import wrapper
 
 from ..errors import InputError
 from ..files import Table
 from ..require import require_flag, require_known
-from ..results.record import COLUMNS, Curve
+from ..results.record import COLUMNS
 from .layout import PartLayout
 from .parts import HeldNodes, Part, RigPart, require_part
 from .places import Place, require_column, require_direction, require_vector
@@ -21,8 +20,7 @@ _TRAITS = ("first", "second", "plate", "nodes", "direction", "length")
 class PartColumns(PartLayout):
     """Base of a rig of parts that records what its test wants to see."""
 
-    def _begin_columns(self) -> None:
-        self._same: dict[str, str] = {}
+    _same: dict[str, str]
 
     def gauge(
         self,
@@ -111,16 +109,6 @@ class PartColumns(PartLayout):
         there = self._columns()
         require_known("also: column", column, there)
         self._same[require_column("also", name, (*there, "set_point"))] = column
-
-    @property
-    def record(self) -> Curve:
-        """The record so far, with the columns of the parts and gauges."""
-        names, rows = list(self._recorder.names), self._recorder.rows
-        for name, column in self._same.items():
-            rows = np.column_stack([rows, rows[:, names.index(column)]])
-            names.append(name)
-        own = [name for name in names if name not in (*COLUMNS, "initial_energy")]
-        return Curve.from_columns(names, rows, own)
 
     @property
     def gauges(self) -> list[Table]:

@@ -81,7 +81,6 @@ class PartRig(PartColumns, PartExcavation):
         #: What ``confine`` presses on.
         self.pressed: Part | None = None
         self._begin_layout()
-        self._begin_columns()
         if kept is not None:
             kept.attach(self)
 

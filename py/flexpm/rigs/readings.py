@@ -9,18 +9,20 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 import yade
+from yade import wrapper
 
 from ..files import Table
 from ..kinds.registry import of_ends
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..results import doubts, measures
-from ..results.record import Curve
+from ..results.record import COLUMNS, Curve
 from ..runs.loading_rate import Loading, Scales, Schedule, schedule
 from ..specimens.space.any_spec import is_solid
 
@@ -42,6 +44,16 @@ class Balance:
     def largest(self) -> float:
         """The largest of them; nan where one is."""
         return float(np.max([self.reaction, self.stress, self.motion]))
+
+
+def curve_of(recorder: wrapper.AxialRecorder, same: Mapping[str, str]) -> Curve:
+    """The record so far, with columns of gauges, and second names of some columns."""
+    names, rows = list(recorder.names), recorder.rows
+    for name, column in same.items():
+        rows = np.column_stack([rows, rows[:, names.index(column)]])
+        names.append(name)
+    own = [name for name in names if name not in (*COLUMNS, "initial_energy")]
+    return Curve.from_columns(names, rows, own)
 
 
 def part_of(part: float, whole: float) -> float:

@@ -4,7 +4,8 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/solid_tests/solid_beam.hpp>
-#include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solid_tests/solid_drive.hpp>
+#include <flexpm/kernel/solid_tests/solid_parts.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 
@@ -20,10 +21,11 @@ constexpr double damping = 0.7, dt = 1.0;
 struct Beam {
     double length, depth, height, span;
 
-    BeamSizes sizes() const
+    /// Rollers are laid before the head.
+    PartGeometry parts() const
     {
-        return { 2.0 * depth * height * height / (3.0 * span), span * span / (6.0 * height),
-            0.5 * length, solid_samples::side };
+        return { { 2 }, { 0, 1 }, { 0.0, 0.0, -1.0 }, 2.0 * depth * height * height / (3.0 * span),
+            span * span / (6.0 * height) };
     }
     Packing packing(int grains, std::uint64_t seed) const
     {
@@ -142,8 +144,8 @@ TEST_CASE("Rollers and head of a beam bear along lines across all of its depth",
         Catch::Contains("triangles at x = 1 m, z = 0 m = 0, must be above 0"));
     CHECK_THROWS_WITH(add_line_plate(s, SolidSide::left, { a, 0.0, a, false }),
         Catch::Contains("side = 3, must be 0, the bottom, or 2, the top"));
-    CHECK_THROWS_WITH(
-        solid_beam_frame(s, few.sizes()), Catch::Contains("plates = 0, must be below and on top"));
+    CHECK_THROWS_WITH(solid_part_frame(s, few.parts()),
+        Catch::Contains("part = 2, must be the number of a plate"));
 }
 
 TEST_CASE("A beam with stiff contacts is bent as Timoshenko's", "[solids]")
@@ -161,24 +163,25 @@ TEST_CASE("Rollers and head of a beam bear the same, which is the work that is s
     const Packing p = few.packing(110, 2);
     for (const bool rigid : { false, true }) {
         SolidState s = laid(few, p, rigid);
-        const SolidFrame frame = solid_beam_frame(s, few.sizes());
-        const TestScales scales = solid_beam_scales(s, few.sizes(), 10e6, dt);
-        CHECK(scales.height == Approx(few.sizes().length));
+        const SolidFrame frame = solid_part_frame(s, few.parts());
+        const TestScales scales = solid_part_scales(s, few.parts(), 10e6, dt);
+        CHECK(scales.height == Approx(few.parts().length));
         CHECK(scales.strength == 10e6);
-        start_ends(s, elastic_field(s), 0.0, -8e-9 * few.height, true, dt);
+        const SolidDrive drive = drive_of(few.parts());
+        start(s, drive, elastic_field(s, drive), 0.0, 8e-9 * few.height, true, dt);
         for (int k = 0; k < 1000; ++k)
             step(s, { dt, damping, 1, true });
         const AxialObservation now = observe(s, frame);
         const double way = 8e-6 * few.height;
-        CHECK(now.axial_strain * few.sizes().length == Approx(way).epsilon(1e-9));
+        CHECK(now.axial_strain * few.parts().length == Approx(way).epsilon(1e-9));
         CHECK(now.axial_stress == Approx(scales.modulus * now.axial_strain).epsilon(0.02));
         CHECK(now.end_mismatch < 0.01);
         const Energies& e = now.energies;
-        const double force = now.axial_stress * few.sizes().area;
+        const double force = now.axial_stress * few.parts().area;
         CHECK(e.elastic == Approx(0.5 * force * way).epsilon(0.01));
         CHECK(std::fabs(e.kinetic + e.elastic + e.damping + e.drag - e.boundary_work - e.initial)
             < 1e-4 * e.elastic);
         // the outer fibre of the middle is pulled
-        CHECK(mouth_opening(s, few.sizes()) > 0.0);
+        CHECK(mouth_opening(s, { 0.5 * few.length, a }) > 0.0);
     }
 }

@@ -24,7 +24,7 @@ struct Plate {
     int side = -1;                 ///< side of the outline it lies on; -1: none in particular
     Vector position;               ///< of a point of its face at the reference [m]
     Vector normal;                 ///< unit vector
-    double width = 0.0;            ///< of the face that takes pressure [m]
+    double width = 0.0;            ///< of the face that takes pressure [m]; in space its area [m^2]
     double stiffness = 0.0;        ///< normal stiffness per area K_n [Pa/m]
     double shear_stiffness = 0.0;  ///< [Pa/m], of frictional contacts
     double friction = 0.0;         ///< coefficient [-]; 0: smooth

@@ -4,7 +4,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/soft_plate.hpp>
-#include <flexpm/kernel/motion/central_difference.hpp>
+#include <flexpm/kernel/motion/loaded_plate.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -69,29 +69,6 @@ bool bears_any(const Assembly& a, const Plate& plate)
 {
     return std::any_of(plate.facets.begin(), plate.facets.end(),
         [&](int f) { return !a.grains.loose[a.facets.grain[f]]; });
-}
-
-/// A loaded plate answers to its load and to the specimen along its normal. Deviation D57: with
-/// loose grains alone before it the load would drive it through the specimen and does not act.
-///
-/// @param undamped  part of its speed that damping does not act on [m/s]
-void integrate_loaded(Plate& plate, double undamped, bool bears, double dt, double damping)
-{
-    const double load = bears ? plate.load : 0.0;
-    const double net = load - dot(plate.normal, plate.force);
-    double speed = dot(plate.normal, plate.velocity);
-    const double old = speed;
-    StepSums sums;
-    integrate_one<true>({ net, 1.0 / plate.mass, 0.0, undamped }, dt, damping, speed, sums, 0);
-    plate.velocity = speed * plate.normal;
-    plate.damping_work += plate.damping_work_next + sums.damped[0];
-    plate.damping_work_next = sums.damped_next[0];
-    plate.drag_work += plate.drag_work_next + sums.dragged[0];
-    plate.drag_work_next = sums.dragged[0];
-    plate.boundary_work += plate.boundary_work_next + 0.5 * dt * load * old;
-    plate.boundary_work_next = 0.5 * dt * load * speed;
-    plate.kinetic = sums.kinetic[0];
-    plate.unbalanced = bears ? sums.largest[0] : plate.load;
 }
 
 void update_plate(Assembly& a, std::size_t number, double dt, double damping)

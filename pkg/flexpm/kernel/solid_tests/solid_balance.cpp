@@ -5,6 +5,7 @@
 #include <flexpm/kernel/solids/tetrahedron_forces.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace flexpm {
@@ -142,9 +143,13 @@ SolidBalance balance(const SolidState& s)
         if (s.grains.is_rigid(g)) add_rigid(s, g, inside);
     }
     add_contacts(s, inside);
-    for (const Plate& p : s.plates)
-        inside.volume -= overlap(p);
     SolidBalance found;
+    for (const Plate& p : s.plates) {
+        inside.volume -= overlap(p);
+        if (!(p.loaded && p.load > 0.0)) continue;
+        const double share = std::fabs(p.load - dot(p.normal, p.force)) / p.load;
+        found.plate_share = std::max(found.plate_share, share);
+    }
     if (!(inside.volume > 0.0)) return found;
     const std::vector<NetForce> net = net_forces(s);
     Vector middle;

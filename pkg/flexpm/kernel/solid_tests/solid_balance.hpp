@@ -12,6 +12,7 @@ struct SolidBalance {
     SpaceTensor mean_stress {};     ///< of the grains and what their contacts bear [Pa]
     SpaceTensor outside_stress {};  ///< of pressures, plates and held nodes [Pa]
     Vector missing_force;           ///< sum of the net forces on nodes that are free to move [N]
+    double plate_share = 0.0;  ///< largest part of its load that a loaded plate does not bear [-]
 };
 
 SolidBalance balance(const SolidState& s);

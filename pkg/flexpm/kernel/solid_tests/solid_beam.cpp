@@ -2,11 +2,10 @@
 #include <flexpm/kernel/solid_tests/solid_beam.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/solid_tests/solid_ends.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_plan.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
-#include <flexpm/kernel/statics/solid_field.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +20,6 @@ namespace {
 constexpr double facing = 0.5;
 /// Friction of what does not slide while it presses, as of the plane's pins.
 constexpr double no_sliding = 1e6;
-constexpr double small_strain = 1e-7;  ///< at which all is linear, but no round-off
 
 /// Where a line along y crosses a triangle of the surface.
 struct Crossing {
@@ -84,22 +82,9 @@ double mean_way(const SolidState& s, double x, double off)
     return length > 0.0 ? sum / length : 0.0;
 }
 
-double push_of(const SolidState& s, SolidSide side)
-{
-    double sum = 0.0;
-    for (const Plate& plate : s.plates)
-        if (plate.side == static_cast<int>(side)) sum += plate.force.z;
-    return sum;
-}
-
-EndForces forces_of(const SolidState& s)
-{
-    return { push_of(s, SolidSide::bottom), push_of(s, SolidSide::top) };
-}
-
 }  // namespace
 
-void add_line_plate(SolidState& s, SolidSide side, const BearingLine& line)
+int add_line_plate(SolidState& s, SolidSide side, const BearingLine& line)
 {
     check_positive("width of a line plate", line.width, "m");
     check_finite("place of a line plate", line.x + line.z, "m");
@@ -133,48 +118,13 @@ void add_line_plate(SolidState& s, SolidSide side, const BearingLine& line)
     }
     s.plates.push_back(p);
     prepare_step(s);
+    return static_cast<int>(s.plates.size()) - 1;
 }
 
-SolidFrame solid_beam_frame(const SolidState& s, const BeamSizes& beam)
+double mouth_opening(const SolidState& s, const Mouth& mouth)
 {
-    check_positive("area of a beam's stress", beam.area, "m^2");
-    check_positive("length of a beam's strain", beam.length, "m");
-    const int head = find_plate(s, SolidSide::top);
-    if (head < 0 || find_plate(s, SolidSide::bottom) < 0) {
-        refuse("solid_beam_frame: plates", static_cast<double>(s.plates.size()), "",
-            "must be below and on top; lay them first");
-    }
-    SolidFrame frame;
-    frame.area = beam.area;
-    frame.height = beam.length;
-    frame.ends = forces_of;
-    frame.strains = [=](const SolidState& now) {
-        return TestStrains { -now.plates[head].displacement.z / beam.length,
-            std::numeric_limits<double>::quiet_NaN() };
-    };
-    return frame;
-}
-
-TestScales solid_beam_scales(const SolidState& s, const BeamSizes& beam, double strength, double dt)
-{
-    check_positive("strength", strength, "Pa");
-    const SolidFrame frame = solid_beam_frame(s, beam);
-    SolidState moved = s;
-    start_ends(moved, elastic_field(s), -small_strain, -1.0, true, dt);
-    const double way = -moved.plates[find_plate(s, SolidSide::top)].displacement.z;
-    const EndForces forces = frame.ends(moved);
-    const double stiffness = 0.5 * (forces.bottom - forces.top) / way;
-    check_positive("stiffness that the head feels", stiffness, "N/m");
-    const double mass = 2.0 * kinetic_of_velocities(moved);
-    const double width = std::sqrt(beam.area);
-    return { std::sqrt(3.0 * mass / stiffness) / dt, stiffness * beam.length / beam.area, strength,
-        beam.length, width, scale_inputs(s, Sense::tension, width, dt).damage_share };
-}
-
-double mouth_opening(const SolidState& s, const BeamSizes& beam)
-{
-    return mean_way(s, beam.middle + beam.reach, beam.reach)
-        - mean_way(s, beam.middle - beam.reach, beam.reach);
+    return mean_way(s, mouth.middle + mouth.reach, mouth.reach)
+        - mean_way(s, mouth.middle - mouth.reach, mouth.reach);
 }
 
 }  // namespace flexpm

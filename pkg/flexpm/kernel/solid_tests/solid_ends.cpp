@@ -2,6 +2,7 @@
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solid_tests/solid_drive.hpp>
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
@@ -71,61 +72,6 @@ bool is_held(const SolidState& s)
 void need_held(const SolidState& s)
 {
     if (!is_held(s)) refuse("held ends", 0.0, "", "must be 2; call hold_ends() first");
-}
-
-void set_top_velocity(SolidState& s, double velocity)
-{
-    const int plate = find_plate(s, SolidSide::top);
-    if (plate >= 0) {
-        s.plates[plate].velocity = { 0.0, 0.0, velocity };
-    } else {
-        prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
-    }
-}
-
-double height_of(const SolidState& s)
-{
-    return end_place(s, SolidSide::top) - end_place(s, SolidSide::bottom);
-}
-
-/// Let damping act on all motion.
-void forget_loading(SolidState& s)
-{
-    std::fill(s.loading.grains.velocity.begin(), s.loading.grains.velocity.end(), 0.0);
-    std::fill(s.loading.grains.spin.begin(), s.loading.grains.spin.end(), 0.0);
-}
-
-/// What held nodes do in the half step that begins.
-void update_prescribed_work(SolidState& s, double dt)
-{
-    const Grains& grains = s.grains;
-    for (int g = 0; g < grains.count; ++g) {
-        if (grains.is_rigid(g)) continue;
-        double work = 0.0;
-        for (int n = 0; n < grains.nodes_of(g); ++n) {
-            for (int axis = 0; axis < grains.layout.dimension; ++axis) {
-                const int i = grains.component(grains.node(g, n), axis);
-                if (grains.prescribed[i]) work -= 0.5 * dt * grains.force[i] * grains.velocity[i];
-            }
-        }
-        s.ledger.prescribed_work[2 * grains.block_of(g) + 1] = work;
-    }
-}
-
-/// Bring what moves with the loading to `ratio` times that motion.
-void change_loading(SolidState& s, double ratio)
-{
-    Grains& grains = s.grains;
-    GrainMotion& given = s.loading.grains;
-    for (std::size_t i = 0; i < given.velocity.size(); ++i) {
-        if (!grains.prescribed[i]) grains.velocity[i] += (ratio - 1.0) * given.velocity[i];
-        given.velocity[i] *= ratio;
-    }
-    for (int g = 0; g < static_cast<int>(s.bodies.size()); ++g) {
-        const Vector spin = spin_in(given, g);
-        if (!s.bodies[g].spin_held) set_spin(s, g, s.bodies[g].spin + (ratio - 1.0) * spin, false);
-        set_space_vector(given.spin, 3 * g, ratio * spin);
-    }
 }
 
 Array<double> turns(const SolidState& s)
@@ -272,46 +218,20 @@ void start_ends(SolidState& s, const SolidField& field, double strain, double ve
     bool undamped, double dt)
 {
     need_held(s);
-    check_finite("velocity of the top", velocity, "m/s");
-    check_finite("strain of the start", strain, "");
-    check_positive("time step", dt, "s");
-    const double height = height_of(s);
-    if (!s.plates.empty()) {
-        s.plates[find_plate(s, SolidSide::top)].displacement = { 0.0, 0.0, strain * height };
-        s.plates[find_plate(s, SolidSide::bottom)].displacement = {};
-    }
-    set_top_velocity(s, velocity);
-    begin_from(s, field, strain, velocity / height);
-    update_prescribed_work(s, dt);
-    if (!undamped) forget_loading(s);
+    start(s, drive_of_top(s), field, strain, velocity, undamped, dt);
 }
 
 void take_over_ends(
     SolidState& s, const SolidField& field, double velocity, bool undamped, double dt)
 {
     need_held(s);
-    check_finite("velocity of the top", velocity, "m/s");
-    check_positive("time step", dt, "s");
-    const double rate = velocity / height_of(s), before = kinetic_of_velocities(s);
-    set_top_velocity(s, velocity);
-    add_motion(s, field, rate);
-    update_prescribed_work(s, dt);
-    s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
-    if (!undamped) forget_loading(s);
+    take_over(s, drive_of_top(s), field, velocity, undamped, dt);
 }
 
 void drive_top(SolidState& s, double velocity, double dt)
 {
     need_held(s);
-    check_finite("velocity of the top", velocity, "m/s");
-    const double old = top_velocity(s);
-    if (velocity == old) return;
-    set_top_velocity(s, velocity);
-    update_prescribed_work(s, dt);
-    if (old == 0.0) return;
-    const double before = kinetic_of_velocities(s);
-    change_loading(s, velocity / old);
-    s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
+    go_on(s, drive_of_top(s), velocity, dt);
 }
 
 ElasticConstants constants_between_ends(SolidState s)
@@ -326,9 +246,7 @@ ElasticConstants constants_between_ends(SolidState s)
 double top_velocity(const SolidState& s)
 {
     need_held(s);
-    const int plate = find_plate(s, SolidSide::top);
-    if (plate >= 0) return s.plates[plate].velocity.z;
-    return s.grains.velocity[s.grains.component(side_nodes(s, SolidSide::top).front(), axial)];
+    return velocity_of(s, drive_of_top(s));
 }
 
 void follow_steady_motion(SolidState& s, double dt, double fastest)

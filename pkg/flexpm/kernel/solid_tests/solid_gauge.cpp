@@ -4,6 +4,7 @@
 #include <flexpm/kernel/core/require.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace flexpm {
 
@@ -24,16 +25,68 @@ SolidSection section_at(const SolidState& s, double place, Vector direction, dou
     return found;
 }
 
+namespace {
+
+/// Node nearest to a place, of the grains whose centres are nearer to it than to another one.
+int nearest_node(const SolidState& s, Vector place, Vector other)
+{
+    int found = -1;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int g = 0; g < s.grains.count; ++g) {
+        const Vector centre = space_vector(s.grains.reference, s.grains.centre(g));
+        if (norm(centre - place) > norm(centre - other)) continue;
+        for (int k = 0; k < s.grains.nodes_of(g); ++k) {
+            const int node = s.grains.node(g, k);
+            const double distance = norm(space_vector(s.grains.reference, node) - place);
+            if (!(distance < nearest)) continue;
+            nearest = distance;
+            found = node;
+        }
+    }
+    if (found < 0) refuse("grains near a point of a gauge", 0.0, "", "must be at least 1");
+    return found;
+}
+
+Vector way_of(const SolidState& s, int node)
+{
+    const int last = static_cast<int>(s.grains.displacement.size()) - s.grains.layout.node_stride;
+    if (node < 0 || node > last)
+        refuse("node of a gauge", node, "", "must be one of gauge_points() or section_at()");
+    return space_vector(s.grains.displacement, node);
+}
+
+}  // namespace
+
+GaugePoints gauge_points(const SolidState& s, Vector first, Vector second)
+{
+    check_positive("length of a gauge", norm(second - first), "m");
+    return { nearest_node(s, first, second), nearest_node(s, second, first) };
+}
+
+double gauge_length(const SolidState& s, const GaugePoints& gauge)
+{
+    return norm(space_vector(s.grains.reference, gauge.second)
+        - space_vector(s.grains.reference, gauge.first));
+}
+
+double gauge_opening(const SolidState& s, const GaugePoints& gauge, Vector direction)
+{
+    return dot(way_of(s, gauge.second) - way_of(s, gauge.first), direction);
+}
+
+double plate_way(const SolidState& s, int plate, Vector direction)
+{
+    if (plate < 0 || plate >= static_cast<int>(s.plates.size()))
+        refuse("plate of a gauge", plate, "", "must be the number of a plate; lay one first");
+    return dot(s.plates[plate].displacement, direction);
+}
+
 double mean_way(const SolidState& s, const std::vector<int>& nodes, Vector direction)
 {
     if (nodes.empty()) refuse("nodes of a gauge", 0.0, "", "must be at least 1");
-    const int last = static_cast<int>(s.grains.displacement.size()) - s.grains.layout.node_stride;
     double sum = 0.0;
-    for (int node : nodes) {
-        if (node < 0 || node > last)
-            refuse("node of a gauge", node, "", "must be one of section_at()");
-        sum += dot(space_vector(s.grains.displacement, node), direction);
-    }
+    for (int node : nodes)
+        sum += dot(way_of(s, node), direction);
     return sum / static_cast<double>(nodes.size());
 }
 

@@ -1,12 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Sections through a specimen in space, and how far they move: gauge.hpp there. SI units.
+/// @file  Points, plates and sections of a specimen in space, and how far they move: gauge.hpp
+/// there. SI units.
 #pragma once
 
+#include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/solids/solid_state.hpp>
 
 #include <vector>
 
 namespace flexpm {
+
+/// Nodes that are nearest to two places, as gauge_points() of the plane finds them.
+/// @throws std::invalid_argument  if the places are one, or no grain is near one of them
+GaugePoints gauge_points(const SolidState& s, Vector first, Vector second);
+
+/// Distance of the points when bonded [m].
+double gauge_length(const SolidState& s, const GaugePoints& gauge);
+
+/// How far the points move apart along a unit vector [m].
+/// @throws std::invalid_argument  if one of them is no node of the specimen
+double gauge_opening(const SolidState& s, const GaugePoints& gauge, Vector direction);
+
+/// Way of a plate along a unit vector [m].
+/// @throws std::invalid_argument  if there is no such plate
+double plate_way(const SolidState& s, int plate, Vector direction);
 
 /// A section through a specimen: the nodes in a band, and where they lie.
 struct SolidSection {

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace flexpm {
 
@@ -158,6 +159,15 @@ double sum_of_first(const Array<double>& pairs)
     return sum;
 }
 
+/// Number of grains before a plate: the force on one that a load moves is the sum of theirs.
+double grains_before(const SolidState& s, const Plate& plate)
+{
+    std::set<int> grains;
+    for (int triangle : plate.facets)
+        grains.insert(s.surface.grain[triangle]);
+    return static_cast<double>(grains.size());
+}
+
 }  // namespace
 
 Energies energies(const SolidState& s)
@@ -176,6 +186,9 @@ Energies energies(const SolidState& s)
         e.elastic += solid_plate_energy(plate);
         e.friction += rubbed_energy(plate);
         e.boundary_work += plate.boundary_work;
+        e.kinetic += plate.kinetic;
+        e.drag += plate.drag_work;
+        e.damping += plate.damping_work - plate.drag_work;
     }
     e.initial = s.ledger.initial;
     return e;
@@ -186,6 +199,8 @@ double kinetic_of_velocities(const SolidState& s)
     double sum = kinetic_of_velocities(s.grains);
     for (const RigidBody& body : s.bodies)
         if (!body.spin_held) sum += 0.5 * dot(body.spin, body.angular_momentum);
+    for (const Plate& plate : s.plates)
+        if (plate.loaded) sum += 0.5 * plate.mass * dot(plate.velocity, plate.velocity);
     return sum;
 }
 
@@ -232,7 +247,10 @@ double damping_power(const SolidState& s, double damping)
 double unbalanced_ratio(const SolidState& s)
 {
     const auto& forces = s.ledger.largest_force;
-    const double largest = *std::max_element(forces.begin(), forces.end());
+    double largest = *std::max_element(forces.begin(), forces.end());
+    for (const Plate& plate : s.plates)
+        if (plate.unbalanced > 0.0)
+            largest = std::max(largest, plate.unbalanced / grains_before(s, plate));
     const int count = s.contacts.count;
     double sum = 0.0;
     const auto add = variant_of<sum_forces<false>, sum_forces<true>>();

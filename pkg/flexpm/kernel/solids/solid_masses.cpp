@@ -97,14 +97,15 @@ void add_point(const SolidState& s, int contact, int point, SolidBound& bound)
     }
 }
 
-/// A contact of a plate, which does not give way itself.
+/// A contact of a plate, which gives way itself if a load moves it.
 void add_touch(const SolidState& s, const Plate& plate, int index, SolidBound& bound)
 {
     const int triangle = plate.facets[index], grain = s.surface.grain[triangle];
+    const double sides = plate.loaded ? 2.0 : 1.0;
     if (!s.grains.is_rigid(grain)) {
         for (int k = 0; k < 3; ++k)
             bound.node[s.grains.scalar_index(s.surface.nodes[triangle][k])] +=
-                3.0 * corner_share(plate, index, k) * (point_stiffness(plate, index) / 3.0);
+                3.0 * corner_share(plate, index, k) * (sides * point_stiffness(plate, index) / 3.0);
         return;
     }
     const double r = s.grains.radius[grain];
@@ -114,9 +115,18 @@ void add_touch(const SolidState& s, const Plate& plate, int index, SolidBound& b
             + corner_share(plate, index, k)
                 * space_vector(s.grains.reference, s.surface.nodes[triangle][k]);
     const double arm = norm(place - space_vector(s.grains.reference, s.grains.centre(grain))) / r;
-    const double all = point_stiffness(plate, index) * (1.0 + arm);
+    const double all = point_stiffness(plate, index) * (sides + arm);
     bound.node[s.grains.scalar_index(s.grains.centre(grain))] += all;
     bound.turn[grain] += r * r * arm * all;
+}
+
+/// Stiffness that a plate feels as it moves against rigid grains that move and turn.
+double bound_of(const Plate& plate)
+{
+    double sum = 0.0;
+    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
+        sum += 3.0 * point_stiffness(plate, i);
+    return sum;
 }
 
 /// Call visit(index) for the mass of each node that has one.
@@ -185,6 +195,8 @@ void scale_masses(SolidState& s, double damping, double dt)
     const double factor = mass_margin * (1.0 + damping) * dt * dt / 4.0;
     for_each_mass(
         s.grains, [&](int i) { s.grains.inverse_mass[i] = 1.0 / (factor * bound.node[i]); });
+    for (Plate& plate : s.plates)
+        if (plate.loaded) plate.mass = factor * bound_of(plate);
     for (std::size_t g = 0; g < s.bodies.size(); ++g) {
         const double i = factor * bound.turn[g];
         s.bodies[g].inertia = { i, i, i, 0.0, 0.0, 0.0 };

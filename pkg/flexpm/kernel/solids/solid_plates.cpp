@@ -2,6 +2,7 @@
 #include <flexpm/kernel/solids/solid_plates.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/motion/loaded_plate.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_plan.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
@@ -161,6 +162,13 @@ Plate touching_plate(const SolidState& s, SolidSide side)
     return p;
 }
 
+/// Whether a plate lies before a grain that is not loose.
+bool bears_any(const SolidState& s, const Plate& plate)
+{
+    return std::any_of(plate.facets.begin(), plate.facets.end(),
+        [&](int triangle) { return !s.grains.loose[s.surface.grain[triangle]]; });
+}
+
 void hold(SolidState& s, int node, int axis)
 {
     const int i = s.grains.component(node, axis);
@@ -305,14 +313,38 @@ void add_plate_forces(SolidState& s, int block)
     }
 }
 
-void sum_plates(SolidState& s, double dt)
+void press(SolidState& s, int plate, double pressure)
 {
-    for (Plate& plate : s.plates) {
+    check_not_negative("pressure on a plate", pressure, "Pa");
+    if (plate < 0 || plate >= static_cast<int>(s.plates.size()))
+        refuse("plate", plate, "", "must be the number of a plate; lay one first");
+    Plate& p = s.plates[plate];
+    if (!(p.loaded && p.mass > 0.0)) {
+        refuse("mass of a plate", p.mass, "kg",
+            "must be above 0; lay it as one that is pressed, and scale the masses");
+    }
+    p.load = pressure * p.width;
+}
+
+bool has_loaded_plate(const SolidState& s)
+{
+    return std::any_of(s.plates.begin(), s.plates.end(), [](const Plate& p) { return p.loaded; });
+}
+
+void sum_plates(SolidState& s, double dt, double damping)
+{
+    for (std::size_t number = 0; number < s.plates.size(); ++number) {
+        Plate& plate = s.plates[number];
         const Vector before = plate.force;
         double sum = 0.0;
         for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
             sum += push(plate, i);
         plate.force = plate.normals.empty() ? sum * plate.normal : force_of_jaw(plate);
+        if (plate.loaded) {
+            const double undamped = dot(plate.normal, s.loading.of_plate(number).velocity);
+            if (dt > 0.0) integrate_loaded(plate, undamped, bears_any(s, plate), dt, damping);
+            continue;
+        }
         plate.boundary_work += dt * dot(0.5 * (before + plate.force), plate.velocity);
     }
 }

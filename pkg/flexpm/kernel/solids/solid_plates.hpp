@@ -47,8 +47,17 @@ Vector normal_at(const Plate& plate, int index);
 /// Add the forces of plates on the nodes of a block of grains, at their present places.
 void add_plate_forces(SolidState& s, int block);
 
-/// Sum forces and works of all plates after the grains have moved by a step.
-void sum_plates(SolidState& s, double dt);
+/// Let a pressure act on a plate that is free to move along its normal, see Plate::loaded [Pa].
+/// @throws std::invalid_argument  if there is no such plate, its masses are not scaled, or for a
+///         pressure below 0
+void press(SolidState& s, int plate, double pressure);
+
+/// Whether a load moves any plate.
+bool has_loaded_plate(const SolidState& s);
+
+/// Sum forces and works of all plates after the grains have moved by a step, and integrate the
+/// loaded ones.
+void sum_plates(SolidState& s, double dt, double damping);
 
 /// Area on which a plate presses [m^2].
 double pressed_area(const Plate& plate);

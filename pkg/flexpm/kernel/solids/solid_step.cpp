@@ -157,7 +157,7 @@ void find_forces(SolidState& s)
         sum_outer_forces(s, block);
         if (!s.grains.group(block).rigid) add_tetrahedron_forces(s, block);
     }
-    sum_plates(s, 0.0);
+    sum_plates(s, 0.0, 0.0);
 }
 
 void step(SolidState& s, const StepOptions& options)
@@ -180,7 +180,7 @@ void step(SolidState& s, const StepOptions& options)
     };
     team.run(share);
     hold_faces(s);
-    sum_plates(s, options.dt);
+    sum_plates(s, options.dt, options.damping);
     sum_pressure_work(s);
     ++s.step;
     if (turned > 0) {

@@ -52,6 +52,15 @@ SpaceGradient turning_block(const SpaceGradient& k, Vector arm, double radius)
     return { column({ 1.0, 0.0, 0.0 }), column({ 0.0, 1.0, 0.0 }), column({ 0.0, 0.0, 1.0 }) };
 }
 
+/// Way of a specimen before a contact of a plate.
+Vector way_before(const LinearSolid::Press& p, const double* u)
+{
+    Vector way;
+    for (int k = 0; k < 3; ++k)
+        way = way + p.shares[k] * triple_at(u, p.nodes[k]);
+    return way;
+}
+
 }  // namespace
 
 void LinearSolid::add(const double* u, double* forces) const
@@ -85,15 +94,31 @@ void LinearSolid::add(const double* u, double* forces) const
             }
         }
     }
+    const std::vector<double> floating = floating_ways(u);
     for (const Press& p : presses) {
-        Vector way;
-        for (int k = 0; k < 3; ++k)
-            way = way + p.shares[k] * triple_at(u, p.nodes[k]);
-        const Vector across = dot(p.normal, way) * p.normal;
-        const Vector force = p.stiffness * across + p.sliding * (way - across);
+        const Vector way = way_before(p, u), across = dot(p.normal, way) * p.normal;
+        const Vector pressed = p.floats ? across - floating[p.plate] * p.normal : across;
+        const Vector force = p.stiffness * pressed + p.sliding * (way - across);
         for (int k = 0; k < 3; ++k)
             add_triple(forces, p.nodes[k], p.shares[k] * force);
     }
+}
+
+std::vector<double> LinearSolid::floating_ways(const double* u) const
+{
+    std::vector<double> ways, stiffness;
+    for (const Press& p : presses) {
+        if (!p.floats) continue;
+        if (p.plate >= static_cast<int>(ways.size())) {
+            ways.resize(p.plate + 1, 0.0);
+            stiffness.resize(p.plate + 1, 0.0);
+        }
+        ways[p.plate] += p.stiffness * dot(p.normal, way_before(p, u));
+        stiffness[p.plate] += p.stiffness;
+    }
+    for (std::size_t i = 0; i < ways.size(); ++i)
+        if (stiffness[i] > 0.0) ways[i] /= stiffness[i];
+    return ways;
 }
 
 std::vector<SpaceGradient> LinearSolid::diagonal_blocks() const
@@ -127,16 +152,22 @@ void RigidSolid::gather(const std::vector<double>& on_nodes, double* forces) con
     }
 }
 
-void RigidSolid::add(const double* u, double* forces) const
+std::vector<double> RigidSolid::on_nodes(const double* u) const
 {
-    std::vector<double> ways(3 * grain.size(), 0.0), on_nodes(3 * grain.size(), 0.0);
+    std::vector<double> ways(3 * grain.size(), 0.0);
     for (int n = 0; n < static_cast<int>(grain.size()); ++n) {
         const int g = grain[n];
         const Vector turn = (1.0 / radii[g]) * triple_at(u, 2 * g + 1);
         add_triple(ways.data(), n, triple_at(u, 2 * g) + cross(turn, solid.places[n] - centres[g]));
     }
-    solid.add(ways.data(), on_nodes.data());
-    gather(on_nodes, forces);
+    return ways;
+}
+
+void RigidSolid::add(const double* u, double* forces) const
+{
+    std::vector<double> sums(3 * grain.size(), 0.0);
+    solid.add(on_nodes(u).data(), sums.data());
+    gather(sums, forces);
 }
 
 std::vector<SpaceGradient> RigidSolid::diagonal_blocks() const

@@ -35,6 +35,7 @@ struct LinearSolid : LinearForces {
         Vector normal;
         double stiffness;  ///< [N/m]
         double sliding;    ///< the same along its face; 0: smooth [N/m]
+        bool floats;       ///< the plate is free to move along its normal
     };
 
     std::vector<PlaneStiffness> kinds;  ///< of elements
@@ -46,6 +47,10 @@ struct LinearSolid : LinearForces {
     /// Unknowns are the displacements of the nodes.
     void add(const double* u, double* forces) const override;
     std::vector<SpaceGradient> diagonal_blocks() const override;
+
+    /// Ways of the plates that float, along their normals, where nodes move so: no force is on them
+    /// then. By their numbers; 0 of others.
+    std::vector<double> floating_ways(const double* u) const;
 };
 
 inline Vector triple_at(const double* u, int node)
@@ -70,6 +75,8 @@ struct RigidSolid : LinearForces {
     void add(const double* u, double* forces) const override;
     std::vector<SpaceGradient> diagonal_blocks() const override;
 
+    /// Displacements of the nodes, from the unknowns.
+    std::vector<double> on_nodes(const double* u) const;
     /// Forces on the unknowns, from those on nodes.
     void gather(const std::vector<double>& on_nodes, double* forces) const;
 };

@@ -83,7 +83,7 @@ void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& s
             const std::array<double, 3> shares = { corner_share(plate, i, 0),
                 corner_share(plate, i, 1), corner_share(plate, i, 2) };
             solid.presses.push_back({ number, touches, nodes, shares, normal_at(plate, i),
-                point_stiffness(plate, i), sliding_stiffness(plate, i) });
+                point_stiffness(plate, i), sliding_stiffness(plate, i), plate.loaded });
         }
     }
 }
@@ -99,12 +99,14 @@ LinearSolid touched_solid(const SolidState& s)
     return solid;
 }
 
-/// Forces on nodes when the top's plate has gone a way.
-std::vector<double> push_of_top(const SolidState& s, const LinearSolid& solid, Vector way)
+/// Forces on nodes when driven plates have gone their way.
+std::vector<double> push_of(const LinearSolid& solid, const SolidDrive& drive)
 {
+    const Vector way = drive.length * drive.direction;
     std::vector<double> on_nodes(3 * solid.places.size(), 0.0);
     for (const LinearSolid::Press& p : solid.presses) {
-        if (s.plates[p.plate].side != static_cast<int>(SolidSide::top)) continue;
+        const auto& driven = drive.plates;
+        if (std::find(driven.begin(), driven.end(), p.plate) == driven.end()) continue;
         for (int k = 0; k < 3; ++k)
             add_triple(on_nodes.data(), p.nodes[k],
                 (3.0 * p.shares[k] * (p.stiffness * dot(p.normal, way) / 3.0)) * p.normal);
@@ -112,11 +114,11 @@ std::vector<double> push_of_top(const SolidState& s, const LinearSolid& solid, V
     return on_nodes;
 }
 
-SolidField field_of_nodes(const SolidState& s)
+/// @param rises  the ends are driven: z from the bottom is given where nodes are held along it, and
+///               where the solution begins
+SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, bool rises, double low)
 {
     const LinearSolid solid = touched_solid(s);
-    const double low = end_place(s, SolidSide::bottom);
-    const double height = end_place(s, SolidSide::top) - low;
     const std::size_t size = 3 * solid.places.size();
     std::vector<std::uint8_t> held(size, 0);
     std::size_t next = 0;
@@ -128,9 +130,11 @@ SolidField field_of_nodes(const SolidState& s)
     if (s.plates.empty() && std::find(held.begin(), held.end(), 1) == held.end())
         refuse("elastic_field: held nodes", 0.0, "", "must be those of both ends; hold them first");
     std::vector<double> given(size, 0.0), guess(size, 0.0);
-    std::vector<double> load = push_of_top(s, solid, { 0.0, 0.0, -height });
-    for (std::size_t n = 0; n < solid.places.size(); ++n)
+    std::vector<double> load = push_of(solid, drive);
+    for (std::size_t n = 0; rises && n < solid.places.size(); ++n)
         (held[3 * n + 2] ? given : guess)[3 * n + 2] = solid.places[n].z - low;
+    for (double& f : load)
+        f = -f;
     solid.add(given.data(), load.data());
     for (double& f : load)
         f = -f;
@@ -139,20 +143,19 @@ SolidField field_of_nodes(const SolidState& s)
     for (std::size_t n = 0; n < solid.places.size(); ++n)
         field.ways.push_back(triple_at(given.data(), static_cast<int>(n))
             + triple_at(found.u.data(), static_cast<int>(n)));
+    field.plates = solid.floating_ways(found.u.data());
     return field;
 }
 
-SolidField field_of_bodies(const SolidState& s)
+SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, bool rises, double low)
 {
     const LinearSolid solid = touched_solid(s);
     const RigidSolid rigid = rigid_solid(s, solid);
-    const double low = end_place(s, SolidSide::bottom);
-    const double height = end_place(s, SolidSide::top) - low;
     std::vector<double> guess(6 * static_cast<std::size_t>(s.grains.count), 0.0);
-    for (int g = 0; g < s.grains.count; ++g)
+    for (int g = 0; rises && g < s.grains.count; ++g)
         guess[6 * g + 2] = rigid.centres[g].z - low;
     std::vector<double> load(guess.size(), 0.0);
-    rigid.gather(push_of_top(s, solid, { 0.0, 0.0, height }), load.data());
+    rigid.gather(push_of(solid, drive), load.data());
     std::vector<std::uint8_t> held(guess.size(), 0);
     for (int g = 0; g < s.grains.count; ++g)
         for (int axis = 0; axis < 3; ++axis)
@@ -163,7 +166,21 @@ SolidField field_of_bodies(const SolidState& s)
         field.ways.push_back(triple_at(found.u.data(), 2 * g));
         field.turns.push_back((1.0 / rigid.radii[g]) * triple_at(found.u.data(), 2 * g + 1));
     }
+    field.plates = solid.floating_ways(rigid.on_nodes(found.u.data()).data());
     return field;
+}
+
+SolidField field_of(const SolidState& s, const SolidDrive& drive, bool rises, double low)
+{
+    const bool rigid = !s.bodies.empty();
+    if (!s.held_faces.empty())
+        refuse("elastic_field: held faces of rigid grains",
+            static_cast<double>(s.held_faces.size()), "", "must be 0; hold sides across an axis");
+    if (rigid && s.plates.size() < 2) {
+        refuse("elastic_field: plates", static_cast<double>(s.plates.size()), "",
+            "must be 2 or more of rigid grains; call hold_ends() first");
+    }
+    return rigid ? field_of_bodies(s, drive, rises, low) : field_of_nodes(s, drive, rises, low);
 }
 
 }  // namespace
@@ -202,15 +219,17 @@ RigidSolid rigid_solid(const SolidState& s, const LinearSolid& solid)
 
 SolidField elastic_field(const SolidState& s)
 {
-    const bool rigid = !s.bodies.empty();
-    if (!s.held_faces.empty())
-        refuse("elastic_field: held faces of rigid grains",
-            static_cast<double>(s.held_faces.size()), "", "must be 0; hold sides across an axis");
-    if (rigid && s.plates.size() < 2) {
-        refuse("elastic_field: plates", static_cast<double>(s.plates.size()), "",
-            "must be 2 or more of rigid grains; call hold_ends() first");
-    }
-    return rigid ? field_of_bodies(s) : field_of_nodes(s);
+    SolidDrive drive;
+    const double low = end_place(s, SolidSide::bottom);
+    drive.length = end_place(s, SolidSide::top) - low;
+    for (int p = 0; p < static_cast<int>(s.plates.size()); ++p)
+        if (s.plates[p].side == static_cast<int>(SolidSide::top)) drive.plates.push_back(p);
+    return field_of(s, drive, true, low);
+}
+
+SolidField elastic_field(const SolidState& s, const SolidDrive& drive)
+{
+    return field_of(s, drive, false, 0.0);
 }
 
 }  // namespace flexpm

@@ -90,6 +90,19 @@ void begin_body(SolidState& s, int grain, const SolidField& field, double extent
     set_space_vector(s.loading.grains.spin, 3 * grain, spin);
 }
 
+/// Add `rate` times a field to the velocities of plates that a load moves.
+void add_plate_motion(SolidState& s, const SolidField& field, double rate)
+{
+    for (std::size_t i = 0; i < field.plates.size(); ++i) {
+        Plate& plate = s.plates[i];
+        if (!plate.loaded) continue;
+        const Vector velocity = rate * field.plates[i] * plate.normal;
+        plate.velocity = plate.velocity + velocity;
+        s.loading.plates.resize(s.plates.size());
+        s.loading.plates[i].velocity = velocity;
+    }
+}
+
 void add_node_motion(SolidState& s, int node, Vector velocity)
 {
     set_space_vector(s.loading.grains.velocity, node, velocity);
@@ -117,6 +130,7 @@ void add_motion(SolidState& s, const SolidField& field, double rate)
         if (!s.bodies[g].spin_held) set_spin(s, g, s.bodies[g].spin + spin, false);
         set_space_vector(s.loading.grains.spin, 3 * g, spin);
     }
+    add_plate_motion(s, field, rate);
 }
 
 void begin_from(SolidState& s, const SolidField& field, double extent, double rate)
@@ -130,6 +144,7 @@ void begin_from(SolidState& s, const SolidField& field, double extent, double ra
     }
     for (int g = 0; g < static_cast<int>(s.bodies.size()); ++g)
         begin_body(s, g, field, extent, rate);
+    add_plate_motion(s, field, rate);
     begin_balance(s);
 }
 

@@ -28,6 +28,9 @@ struct SolidField {
     /// Ways of nodes, grain after grain, the centre last; of rigid grains those of centres [m].
     std::vector<Vector> ways;
     std::vector<Vector> turns;  ///< of rigid grains, small [rad]; else empty
+    /// Ways of the plates that a load moves, along their normals, by number; 0 of others and beyond
+    /// the last of them [m].
+    std::vector<double> plates = {};
 };
 
 /// Begin from a linear solution: displacements are `extent` times `field`, velocities `rate` times

@@ -28,7 +28,12 @@ Real Gauge::moved(const flexpm::Assembly& assembly) const
 	return plate >= 0 ? flexpm::plate_way(assembly, plate, along) : way(assembly.grains.displacement);
 }
 
-Real Gauge::moved(const flexpm::SolidState& solid) const { return flexpm::mean_way(solid, nodes, { direction[0], direction[1], direction[2] }); }
+Real Gauge::moved(const flexpm::SolidState& solid) const
+{
+	const flexpm::Vector along = { direction[0], direction[1], direction[2] };
+	if (plate >= 0) return flexpm::plate_way(solid, plate, along);
+	return nodes.empty() ? flexpm::gauge_opening(solid, { first, second }, along) : flexpm::mean_way(solid, nodes, along);
+}
 
 void Gauge::setZero(const flexpm::SolidState& solid) { zero = moved(solid); }
 

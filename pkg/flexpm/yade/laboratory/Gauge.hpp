@@ -17,7 +17,7 @@ public:
 	void setZero(const flexpm::Assembly& assembly);
 	/// Opening or way, less that at its zero [m], or a strain [-], or what `reads` names.
 	Real reading(const flexpm::Assembly& assembly) const;
-	/// The same of a solid, of which sections alone are read.
+	/// The same of a solid.
 	void setZero(const flexpm::SolidState& solid);
 	Real reading(const flexpm::SolidState& solid) const;
 	/// What the reading grows by in a second where nodes move at such velocities, and plates as the loading moves them.

@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {
@@ -22,7 +23,7 @@ void PressureController::action()
 void PressureController::press(GrainSolver& solver, Real now) const
 {
 	for (int plate : plates)
-		flexpm::press(solver.assembly, plate, now);
+		solver.onState([&](auto& state) { flexpm::press(state, plate, now); });
 }
 
 } // namespace yade

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/SolidEndsController.hpp>
 
-#include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solid_tests/solid_drive.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
-#include <flexpm/kernel/statics/solid_field.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {
@@ -19,12 +19,13 @@ void SolidEndsController::action()
 	const Real before = drivenAt;
 	follow(velocity, seenVelocity, drivenAt);
 	if (gripped && drivenAt == before) return;
-	if (gripped)
-		flexpm::drive_top(*state, drivenAt, scene->dt);
-	else if (flexpm::is_pressed(*state))
-		flexpm::take_over_ends(*state, flexpm::elastic_field(*state), drivenAt, undampedLoading, scene->dt);
+	const auto drive = plates.empty() ? flexpm::drive_of_top(*state) : flexpm::SolidDrive { plates, { direction[0], direction[1], direction[2] } };
+	if (gripped) return flexpm::go_on(*state, drive, drivenAt, scene->dt);
+	const auto field = plates.empty() ? flexpm::elastic_field(*state) : flexpm::elastic_field(*state, drive);
+	if (flexpm::is_pressed(*state) || flexpm::has_loaded_plate(*state))
+		flexpm::take_over(*state, drive, field, drivenAt, undampedLoading, scene->dt);
 	else
-		flexpm::start_ends(*state, flexpm::elastic_field(*state), 0, drivenAt, undampedLoading, scene->dt);
+		flexpm::start(*state, drive, field, 0, drivenAt, undampedLoading, scene->dt);
 	gripped = true;
 }
 

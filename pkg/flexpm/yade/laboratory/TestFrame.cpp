@@ -7,12 +7,13 @@
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
+#include <flexpm/kernel/solid_tests/solid_beam.hpp>
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
 #include <flexpm/kernel/statics/elastic_state.hpp>
 
 namespace yade {
 
-YADE_PLUGIN((TestFrame)(RectangleFrame)(DiscFrame)(PartFrame)(EndFrame)(SolidDiscFrame)(SolidBeamFrame));
+YADE_PLUGIN((TestFrame)(RectangleFrame)(DiscFrame)(PartFrame)(EndFrame)(SolidDiscFrame)(SolidPartFrame));
 
 TestFrame::~TestFrame()           = default;
 RectangleFrame::~RectangleFrame() = default;
@@ -20,12 +21,12 @@ DiscFrame::~DiscFrame()           = default;
 PartFrame::~PartFrame()           = default;
 EndFrame::~EndFrame()             = default;
 SolidDiscFrame::~SolidDiscFrame() = default;
-SolidBeamFrame::~SolidBeamFrame() = default;
+SolidPartFrame::~SolidPartFrame() = default;
 
 flexpm::TestFrame TestFrame::frame(const flexpm::Assembly&) const
 {
 	throw std::invalid_argument("AxialRecorder.frame = TestFrame, must be a RectangleFrame, DiscFrame or PartFrame, or an EndFrame, SolidDiscFrame or "
-	                            "SolidBeamFrame of a solid");
+	                            "SolidPartFrame of a solid");
 }
 
 flexpm::TestScales TestFrame::scales(const flexpm::Assembly& assembly, Real) const
@@ -156,17 +157,26 @@ flexpm::AxialObservation SolidDiscFrame::observed(GrainSolver& solver) const
 
 flexpm::TestScales SolidDiscFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_disc_scales(solidOf(solver), diameter, depth, dt); }
 
-flexpm::AxialObservation SolidBeamFrame::observed(GrainSolver& solver) const
+flexpm::AxialObservation SolidPartFrame::observed(GrainSolver& solver) const
 {
 	const auto& state = solidOf(solver);
-	return flexpm::observe(state, flexpm::solid_beam_frame(state, sizes()));
+	return flexpm::observe(state, flexpm::solid_part_frame(state, parts()));
 }
 
-flexpm::TestScales SolidBeamFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_beam_scales(solidOf(solver), sizes(), strength, dt); }
+flexpm::TestScales SolidPartFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_part_scales(solidOf(solver), parts(), strength, dt); }
 
-vector<Real> SolidBeamFrame::values(GrainSolver& solver, Real stress, Real strain) const
+vector<string> SolidPartFrame::columns() const
 {
-	return { stress * area, strain * length, flexpm::mouth_opening(solidOf(solver), sizes()) };
+	vector<string> names { "load", "displacement" };
+	if (reach > 0) names.push_back("cmod");
+	return names;
+}
+
+vector<Real> SolidPartFrame::values(GrainSolver& solver, Real stress, Real strain) const
+{
+	vector<Real> now { stress * area, strain * length };
+	if (reach > 0) now.push_back(flexpm::mouth_opening(solidOf(solver), { middle, reach }));
+	return now;
 }
 
 } // namespace yade

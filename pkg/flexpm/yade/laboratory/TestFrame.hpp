@@ -5,7 +5,7 @@
 
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
-#include <flexpm/kernel/solid_tests/solid_beam.hpp>
+#include <flexpm/kernel/solid_tests/solid_parts.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
 
@@ -152,29 +152,32 @@ public:
 };
 REGISTER_SAVED(SolidDiscFrame);
 
-class SolidBeamFrame : public TestFrame {
+class SolidPartFrame : public TestFrame {
 public:
-	~SolidBeamFrame() override;
+	~SolidPartFrame() override;
 	flexpm::AxialObservation observed(GrainSolver& solver) const override;
 	flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const override;
-	vector<string>           columns() const override { return { "load", "displacement", "cmod" }; }
+	vector<string>           columns() const override;
 	vector<Real>             values(GrainSolver& solver, Real stress, Real strain) const override;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(SolidBeamFrame, TestFrame,
-		"A beam of space, or half a disc, on two rollers and under a head, lines that :yref:`SolidSolver.layLine` has laid.",
+	YADE_CLASS_BASE_DOC_ATTRS(SolidPartFrame, TestFrame,
+		"Plates that hold and load a solid: lines and patches that :yref:`SolidSolver.layLine` and layPatch have laid, by their numbers.",
+		((vector<int>, driven,,, "Plates that load it [-]."))
+		((vector<int>, holding,,, "Plates that hold it against them [-]."))
+		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven ones load, a unit vector [-]."))
 		((Real, area, 0.,, "Load over the record's stress [m2]."))
-		((Real, length, 0.,, "Way of the head over the record's strain [m]."))
+		((Real, length, 0.,, "Displacement over the record's strain [m]."))
 		((Real, strength, 0.,, "Stress that the test may reach, roughly [Pa]."))
 		((Real, middle, 0.,, "x of the middle of the bottom, where a notch opens [m]."))
-		((Real, reach, 0.,, "Distance from there to either side, of the lines whose parting is cmod [m]."))
+		((Real, reach, 0.,, "Distance from there to either side, of the lines whose parting is the column cmod [m]; 0: there is none."))
 		((vector<Real>, loadingScales,,, "Scales as the loading found the specimen, in the order of AxialRecorder.scales(); empty before it."))
 	);
 	// clang-format on
 
 private:
-	flexpm::BeamSizes sizes() const { return { area, length, middle, reach }; }
+	flexpm::PartGeometry parts() const { return { driven, holding, { direction[0], direction[1], direction[2] }, area, length }; }
 };
-REGISTER_SAVED(SolidBeamFrame);
+REGISTER_SAVED(SolidPartFrame);
 
 } // namespace yade

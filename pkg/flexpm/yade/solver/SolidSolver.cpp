@@ -7,6 +7,7 @@
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
 #include <flexpm/kernel/solid_tests/solid_gauge.hpp>
 #include <flexpm/kernel/solid_tests/solid_loose.hpp>
+#include <flexpm/kernel/solid_tests/solid_parts.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/solids/solid_masses.hpp>
@@ -92,9 +93,21 @@ void SolidSolver::holdBottom(bool plate)
 
 void SolidSolver::holdDisc(Real jawRadius) { flexpm::add_disc_plates(state, jawRadius); }
 
-void SolidSolver::layLine(int side, Real x, Real z, Real width, bool pinned)
+int SolidSolver::layLine(int side, Real x, Real z, Real width, bool pinned)
 {
-	flexpm::add_line_plate(state, static_cast<flexpm::SolidSide>(side), { x, z, width, pinned });
+	return flexpm::add_line_plate(state, static_cast<flexpm::SolidSide>(side), { x, z, width, pinned });
+}
+
+int SolidSolver::layPatch(Vector3r normal, Vector3r low, Vector3r high, bool bonded, bool pressed)
+{
+	const auto vector = [](const Vector3r& v) { return flexpm::Vector { v[0], v[1], v[2] }; };
+	return flexpm::add_patch_plate(state, { vector(normal), vector(low), vector(high), bonded, pressed });
+}
+
+py::tuple SolidSolver::gaugePoints(Vector3r first, Vector3r second)
+{
+	const auto gauge = flexpm::gauge_points(state, { first[0], first[1], first[2] }, { second[0], second[1], second[2] });
+	return py::make_tuple(gauge.first, gauge.second, flexpm::gauge_length(state, gauge));
 }
 
 py::tuple SolidSolver::elasticConstants()

@@ -26,7 +26,9 @@ public:
 	void holdEnds(bool bonded, Real friction);
 	void holdBottom(bool plate);
 	void holdDisc(Real jawRadius);
-	void layLine(int side, Real x, Real z, Real width, bool pinned);
+	int  layLine(int side, Real x, Real z, Real width, bool pinned);
+	int  layPatch(Vector3r normal, Vector3r low, Vector3r high, bool bonded, bool pressed);
+	py::tuple gaugePoints(Vector3r first, Vector3r second);
 	py::list  pressedAreas();
 	py::tuple elasticConstants();
 	void      clearPressure(int side);
@@ -56,7 +58,11 @@ public:
 		.def("holdBottom", WithGrains<&SolidSolver::holdBottom>::call, (py::arg("plate") = false), "Take hold of the bottom alone in the same way, if it is not held, and of a place on it across; the top may bear a pressure meanwhile. plate: by a plate of any grains.")
 		.def("holdDisc", WithGrains<&SolidSolver::holdDisc>::call, (py::arg("jawRadius") = 0.), "Lay a smooth plate below a disc and one on top, which touch it, or jaws of a radius [m]. What they touch at first does not move along x, and one place of it not along y, else the disc would roll. Scale the masses afterwards.")
 		.def("layLine", WithGrains<&SolidSolver::layLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false),
-			"Lay a plate that bears along a line across the depth, along y at x and z, with the stiffness of a strip of that width [m]: a roller on the bottom (side 0) or a head on top (2). pinned: it does not slide while it presses. Scale the masses afterwards.")
+			"Lay a plate that bears along a line across the depth, along y at x and z, with the stiffness of a strip of that width [m]: a roller on the bottom (side 0) or a head on top (2). pinned: it does not slide while it presses. Returns its number. Scale the masses afterwards.")
+		.def("layPatch", WithGrains<&SolidSolver::layPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("bonded") = false, py::arg("pressed") = false),
+			"Lay a smooth plate against what lies of the outside in a box from low to high [m] and faces a normal along an axis, which points into the specimen. bonded: it pulls, too; pressed: it is free to move along its normal, for :yref:`PressureController`. Returns its number. Scale the masses afterwards.")
+		.def("gaugePoints", WithGrains<&SolidSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
+			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
 		.def("pressedAreas", WithGrains<&SolidSolver::pressedAreas>::call, "Area on which each plate presses at the last step [m2].")
 		.def("elasticConstants", WithGrains<&SolidSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio of the unloaded grains between smooth ends, by their linear solution; they stay as they are.")
 		.def("clearPressure", WithGrains<&SolidSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side.")

@@ -49,7 +49,7 @@ py::dict SolidSolver::balance()
 	d["mean_stress"]    = values(now.mean_stress);
 	d["outside_stress"] = values(now.outside_stress);
 	d["missing_force"]  = py::make_tuple(now.missing_force.x, now.missing_force.y, now.missing_force.z);
-	d["plate_share"]    = 0.;
+	d["plate_share"]    = now.plate_share;
 	return d;
 }
 

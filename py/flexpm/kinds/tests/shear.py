@@ -58,6 +58,7 @@ KIND = TestKind(
     about="the lower half of a rectangle is pushed along below the upper one, to the largest "
     "displacement",
     sizes={"width": 0.08, "height": 0.04},
+    solids=("box",),
     models=BLOCK_MODELS,
     results=dict.fromkeys(BLOCK_MODELS, 4),
     options=(
@@ -72,6 +73,7 @@ KIND = TestKind(
     pressure="normal_stress",
     layout=_between_boxes,
     rates=slid.RATES,
+    solid_rates=slid.SOLID_RATES,
     slides=True,
     needs_peak=False,
     no_constants=("youngs_modulus",),  # the slope of a box

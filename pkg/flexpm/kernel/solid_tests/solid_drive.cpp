@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/solid_tests/solid_drive.hpp>
+
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solids/solid_bodies.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
+
+#include <algorithm>
+
+namespace flexpm {
+
+namespace {
+
+constexpr int axial = 2;
+
+void set_velocity(SolidState& s, const SolidDrive& drive, double velocity)
+{
+    for (int plate : drive.plates)
+        s.plates[plate].velocity = velocity * drive.direction;
+    if (drive.plates.empty()) prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
+}
+
+/// Let damping act on all motion.
+void forget_loading(SolidState& s)
+{
+    std::fill(s.loading.grains.velocity.begin(), s.loading.grains.velocity.end(), 0.0);
+    std::fill(s.loading.grains.spin.begin(), s.loading.grains.spin.end(), 0.0);
+    s.loading.plates.clear();
+}
+
+/// What held nodes do in the half step that begins.
+void update_prescribed_work(SolidState& s, double dt)
+{
+    const Grains& grains = s.grains;
+    for (int g = 0; g < grains.count; ++g) {
+        if (grains.is_rigid(g)) continue;
+        double work = 0.0;
+        for (int n = 0; n < grains.nodes_of(g); ++n) {
+            for (int axis = 0; axis < grains.layout.dimension; ++axis) {
+                const int i = grains.component(grains.node(g, n), axis);
+                if (grains.prescribed[i]) work -= 0.5 * dt * grains.force[i] * grains.velocity[i];
+            }
+        }
+        s.ledger.prescribed_work[2 * grains.block_of(g) + 1] = work;
+    }
+}
+
+/// Bring what moves with the loading to `ratio` times that motion.
+void change_loading(SolidState& s, double ratio)
+{
+    Grains& grains = s.grains;
+    GrainMotion& given = s.loading.grains;
+    for (std::size_t i = 0; i < given.velocity.size(); ++i) {
+        if (!grains.prescribed[i]) grains.velocity[i] += (ratio - 1.0) * given.velocity[i];
+        given.velocity[i] *= ratio;
+    }
+    for (int g = 0; g < static_cast<int>(s.bodies.size()); ++g) {
+        const Vector spin = spin_in(given, g);
+        if (!s.bodies[g].spin_held) set_spin(s, g, s.bodies[g].spin + (ratio - 1.0) * spin, false);
+        set_space_vector(given.spin, 3 * g, ratio * spin);
+    }
+    for (std::size_t i = 0; i < s.loading.plates.size(); ++i) {
+        Vector& own = s.loading.plates[i].velocity;
+        s.plates[i].velocity = s.plates[i].velocity + (ratio - 1.0) * own;
+        own = ratio * own;
+    }
+}
+
+void check(double velocity, double dt)
+{
+    check_finite("velocity of what loads", velocity, "m/s");
+    check_positive("time step", dt, "s");
+}
+
+}  // namespace
+
+SolidDrive drive_of_top(const SolidState& s)
+{
+    SolidDrive drive;
+    drive.length = end_place(s, SolidSide::top) - end_place(s, SolidSide::bottom);
+    const int plate = find_plate(s, SolidSide::top);
+    if (plate >= 0) drive.plates = { plate };
+    return drive;
+}
+
+void start(SolidState& s, const SolidDrive& drive, const SolidField& field, double part,
+    double velocity, bool undamped, double dt)
+{
+    check(velocity, dt);
+    check_finite("part of the field", part, "");
+    for (Plate& plate : s.plates)
+        plate.displacement = {};
+    for (int plate : drive.plates)
+        s.plates[plate].displacement = part * drive.length * drive.direction;
+    set_velocity(s, drive, velocity);
+    begin_from(s, field, part, velocity / drive.length);
+    update_prescribed_work(s, dt);
+    if (!undamped) forget_loading(s);
+}
+
+void take_over(SolidState& s, const SolidDrive& drive, const SolidField& field, double velocity,
+    bool undamped, double dt)
+{
+    check(velocity, dt);
+    const double before = kinetic_of_velocities(s);
+    set_velocity(s, drive, velocity);
+    add_motion(s, field, velocity / drive.length);
+    update_prescribed_work(s, dt);
+    s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
+    if (!undamped) forget_loading(s);
+}
+
+void go_on(SolidState& s, const SolidDrive& drive, double velocity, double dt)
+{
+    check(velocity, dt);
+    const double old = velocity_of(s, drive);
+    if (velocity == old) return;
+    set_velocity(s, drive, velocity);
+    update_prescribed_work(s, dt);
+    if (old == 0.0) return;
+    const double before = kinetic_of_velocities(s);
+    change_loading(s, velocity / old);
+    s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
+}
+
+double velocity_of(const SolidState& s, const SolidDrive& drive)
+{
+    if (!drive.plates.empty()) return dot(s.plates[drive.plates.front()].velocity, drive.direction);
+    return s.grains.velocity[s.grains.component(side_nodes(s, SolidSide::top).front(), axial)];
+}
+
+}  // namespace flexpm

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  The motion that what loads a specimen in space gives to it: loading_motion.hpp there. SI
+/// units.
+#pragma once
+
+#include <flexpm/kernel/statics/solid_field.hpp>
+
+namespace flexpm {
+
+/// What drives the ends of a specimen: the top, by its plate or by its nodes.
+/// @throws std::invalid_argument  if it has no ends
+SolidDrive drive_of_top(const SolidState& s);
+
+/// Begin from a linear solution, at a part of the way for which the field is, with what loads at a
+/// velocity, by which all grains move as that solution does (deviation D30). Kinetic and elastic
+/// energy of this start are the initial ones of the balance.
+///
+/// @param part      of the field [-]
+/// @param velocity  of what loads [m/s]
+/// @param undamped  damping acts only on what grains move beyond that
+/// @param dt        time step [s]
+/// @throws std::invalid_argument  as begin_from(), or unless the velocity is finite
+void start(SolidState& s, const SolidDrive& drive, const SolidField& field, double part,
+    double velocity, bool undamped, double dt);
+
+/// Begin from the present state, as of a specimen that bears pressures, with the motion that a
+/// linear solution adds. The kinetic energy that this gives is work of the boundary. Arguments and
+/// errors as of start().
+void take_over(SolidState& s, const SolidDrive& drive, const SolidField& field, double velocity,
+    bool undamped, double dt);
+
+/// Go on at another velocity, and with it the motion that the loading gives, so that the change
+/// raises no wave. The kinetic energy that this gives is work of the boundary.
+/// @throws std::invalid_argument  unless the velocity is finite
+void go_on(SolidState& s, const SolidDrive& drive, double velocity, double dt);
+
+/// Velocity of what loads [m/s].
+double velocity_of(const SolidState& s, const SolidDrive& drive);
+
+}  // namespace flexpm

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Plates against parts of the outside of a specimen in space, which hold and load it, and
+/// what their test records: part_plates.hpp and part_measures.hpp of the plane. SI units.
+#pragma once
+
+#include <flexpm/kernel/laboratory/part_measures.hpp>
+#include <flexpm/kernel/solid_tests/solid_frame.hpp>
+#include <flexpm/kernel/statics/solid_field.hpp>
+
+namespace flexpm {
+
+/// Part of the outside that lies in a box and faces a plate.
+struct SolidPatch {
+    Vector normal;     ///< into the specimen, along an axis
+    Vector low, high;  ///< corners of the box [m]
+    bool bonded = false;
+    bool pressed = false;  ///< free to move along its normal under a load
+};
+
+/// Lay a smooth plate on a patch. It does not turn. A surface triangle that leaves the box is
+/// touched where what is within has its middle. Masses must be scaled again afterwards.
+/// @return  number of the plate
+/// @throws std::invalid_argument  for a normal that is no unit vector, or if nothing faces the
+///                                plate there
+int add_patch_plate(SolidState& s, const SolidPatch& patch);
+
+/// Frame of a test by plates, whose load is positive as the driven ones push; as part_frame() of
+/// the plane. There is no lateral strain.
+/// @throws std::invalid_argument  for a plate that there is not, or a size that is not above 0
+SolidFrame solid_part_frame(const SolidState& s, const PartGeometry& parts);
+
+/// What its elastic solution drives: a way of 1 m.
+SolidDrive drive_of(const PartGeometry& parts);
+
+/// Its scales, from the elastic solution, as part_scales() has them; `width` is the root of the
+/// area.
+/// @param strength  stress that the test may reach, roughly [Pa]
+/// @throws std::runtime_error  if the forces do not come to balance
+TestScales solid_part_scales(
+    const SolidState& s, const PartGeometry& parts, double strength, double dt);
+
+}  // namespace flexpm

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Plates against parts of the outside of a solid: what they touch, the modulus between two
+/// of them, one that a load moves, works.
+#include "support/catch.hpp"
+
+#include <flexpm/kernel/solid_tests/solid_balance.hpp>
+#include <flexpm/kernel/solid_tests/solid_drive.hpp>
+#include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solid_tests/solid_gauge.hpp>
+#include <flexpm/kernel/solid_tests/solid_parts.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
+
+#include "solids/solid_states.hpp"
+
+using namespace solid_states;
+
+namespace {
+
+constexpr double damping = 0.7, dt = 1.0, a = solid_samples::side;
+constexpr Vector up { 0.0, 0.0, 1.0 }, right { 1.0, 0.0, 0.0 };
+
+SolidState made(const Packing& p, bool rigid)
+{
+    return make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
+}
+
+/// What lies about a side; of an upright one between two heights.
+SolidPatch side(const Packing& p, Vector inwards, double low, double high)
+{
+    const Vector top = p.solid.high;
+    SolidPatch patch { inwards, { -a, -a, -a }, { top.x + a, top.y + a, top.z + a } };
+    if (inwards.x > 0.0) patch.high.x = a;
+    if (inwards.x < 0.0) patch.low.x = top.x - a;
+    if (inwards.z > 0.0) patch.high.z = a;
+    if (inwards.z < 0.0) patch.low.z = top.z - a;
+    if (inwards.x != 0.0) {
+        patch.low.z = low;
+        patch.high.z = high;
+    }
+    return patch;
+}
+
+/// Both halves of a box held across, the lower ones along x to be driven: plates 0 to 3, its base
+/// 4, a lid 5 under a load.
+SolidState sheared(const Packing& p, bool rigid)
+{
+    SolidState s = made(p, rigid);
+    const double height = p.solid.high.z, gap = 0.25 * a;
+    for (const bool above : { false, true }) {
+        for (const double inwards : { 1.0, -1.0 }) {
+            SolidPatch half = side(p, inwards * right, above ? 0.5 * height + gap : -a,
+                above ? height + a : 0.5 * height - gap);
+            half.bonded = true;
+            add_patch_plate(s, half);
+        }
+    }
+    SolidPatch base = side(p, up, 0.0, 0.0), lid = side(p, -1.0 * up, 0.0, 0.0);
+    base.bonded = lid.pressed = true;
+    add_patch_plate(s, base);
+    add_patch_plate(s, lid);
+    scale_masses(s, damping, dt);
+    return s;
+}
+
+PartGeometry shearing(const Packing& p)
+{
+    const Vector top = p.solid.high;
+    return { { 0, 1 }, { 2, 3 }, right, top.x * top.y, top.z };
+}
+
+void go(SolidState& s, int steps)
+{
+    for (int k = 0; k < steps; ++k)
+        step(s, { dt, damping, 1, true });
+}
+
+double imbalance(const Energies& e)
+{
+    return e.kinetic + e.elastic + e.damage + e.friction + e.damping + e.drag - e.boundary_work
+        - e.initial;
+}
+
+}  // namespace
+
+TEST_CASE("A plate touches what of a side is in its box, to the hair", "[solids]")
+{
+    const Packing p = packing(80, 3);
+    SolidState s = made(p, false);
+    const Vector top = p.solid.high;
+    for (const double height : { 0.31, 0.5, 2.0 }) {
+        const double high = std::min(height, 1.0) * top.z;
+        const int number = add_patch_plate(s, side(p, right, 0.0, height * top.z));
+        const Plate& plate = s.plates[number];
+        CHECK(plate.width == Approx(top.y * high).epsilon(1e-12));
+        Vector middle;
+        for (std::size_t i = 0; i < plate.facets.size(); ++i) {
+            CHECK(plate.gap[i] == 0.0);
+            for (int k = 0; k < 3; ++k)
+                middle = middle
+                    + plate.area[i] / plate.width * plate.shares[3 * i + k]
+                        * space_vector(s.grains.reference, s.surface.nodes[plate.facets[i]][k]);
+        }
+        CHECK(std::fabs(middle.x) < 1e-12 * top.x);
+        CHECK(middle.y == Approx(0.5 * top.y).epsilon(1e-9));
+        CHECK(middle.z == Approx(0.5 * high).epsilon(1e-9));
+    }
+    CHECK_THROWS_WITH(add_patch_plate(s, side(p, right, 2.0 * top.z, 3.0 * top.z)),
+        Catch::Contains("triangles before a plate = 0, must be above 0"));
+    SolidPatch slanted = side(p, right, 0.0, top.z);
+    slanted.normal = { 1.0, 1.0, 0.0 };
+    CHECK_THROWS_WITH(add_patch_plate(s, slanted), Catch::Contains("must be a unit vector"));
+}
+
+TEST_CASE("Between two patches a solid has the modulus that it has between its ends", "[solids]")
+{
+    const Packing p = box(60, 2);
+    SolidState s = made(p, true);
+    for (const double sign : { 1.0, -1.0 }) {
+        SolidPatch end = side(p, sign * up, 0.0, 0.0);
+        end.bonded = true;
+        add_patch_plate(s, end);
+    }
+    scale_masses(s, damping, dt);
+    const Vector top = p.solid.high;
+    const PartGeometry parts { { 1 }, { 0 }, up, top.x * top.y, top.z };
+    const TestScales scales = solid_part_scales(s, parts, 1e6, dt);
+    CHECK(scales.strength == 1e6);
+    CHECK(scales.height == top.z);
+    // the strain of a record between plates is that of the centres of rigid grains
+    SolidState ends = made(p, true);
+    hold_ends(ends, { true, false });
+    scale_masses(ends, damping, dt);
+    const SolidFrame frame = solid_frame(ends, Sense::tension);
+    start_ends(ends, elastic_field(ends), 1e-7, 0.0, false, dt);
+    CHECK(scales.modulus == Approx(observe(ends, frame).axial_stress / 1e-7).epsilon(1e-6));
+    CHECK(scales.crossing_steps > 10.0);
+}
+
+TEST_CASE("A plate under a load follows what it presses on, and the works add up", "[solids]")
+{
+    const Packing p = packing(60, 5);
+    const double pressure = 2e6;
+    for (const bool rigid : { false, true }) {
+        SolidState s = sheared(p, rigid);
+        REQUIRE(s.plates.size() == 6);
+        for (int k = 0; k < 4000; ++k) {
+            press(s, 5, pressure * std::min(1.0, k / 1000.0));
+            step(s, { dt, damping, 1, true });
+        }
+        const double load = pressure * s.plates[5].width;
+        CHECK(-s.plates[5].force.z == Approx(load).epsilon(1e-3));
+        CHECK(s.plates[4].force.z == Approx(load).epsilon(1e-3));
+        CHECK(balance(s).plate_share < 1e-3);
+        CHECK(plate_way(s, 5, up) < 0.0);
+        CHECK(std::fabs(imbalance(energies(s))) < 1e-6 * energies(s).elastic);
+
+        const PartGeometry parts = shearing(p);
+        const SolidFrame frame = solid_part_frame(s, parts);
+        const SolidDrive drive = drive_of(parts);
+        const double velocity = 1e-8 * p.solid.high.z;
+        take_over(s, drive, elastic_field(s, drive), velocity, true, dt);
+        const double lid = plate_way(s, 5, up);
+        go(s, 500);
+        const AxialObservation now = observe(s, frame);
+        CHECK(now.axial_strain == Approx(500.0 * 1e-8).epsilon(1e-9));
+        CHECK(now.axial_stress
+            == Approx(solid_part_scales(s, parts, 1e6, dt).modulus * now.axial_strain)
+                   .epsilon(0.03));
+        CHECK(now.end_mismatch < 0.02);
+        // the lid goes on bearing its load as it moves with the specimen
+        CHECK(-s.plates[5].force.z == Approx(load).epsilon(1e-2));
+        CHECK(plate_way(s, 5, up) != lid);
+        CHECK(std::fabs(imbalance(now.energies)) < 1e-4 * now.energies.elastic);
+        go_on(s, drive, 0.0, dt);
+        CHECK(velocity_of(s, drive) == 0.0);
+    }
+}
+
+TEST_CASE("A plate that is not laid for a load takes none", "[solids]")
+{
+    const Packing p = packing(40, 5);
+    SolidState s = sheared(p, true);
+    CHECK_THROWS_WITH(press(s, 0, 1e6), Catch::Contains("lay it as one that is pressed"));
+    CHECK_THROWS_WITH(press(s, 9, 1e6), Catch::Contains("plate = 9, must be the number"));
+    CHECK_THROWS_WITH(press(s, 5, -1.0), Catch::Contains("pressure on a plate = -1 Pa"));
+    CHECK_THROWS_WITH(
+        solid_part_frame(s, { {}, {}, right, 1.0, 1.0 }), Catch::Contains("driven plates = 0"));
+    CHECK_THROWS_WITH(plate_way(s, 9, up), Catch::Contains("plate of a gauge = 9"));
+    const Vector middle = 0.5 * p.solid.high;
+    const GaugePoints gauge = gauge_points(s, middle - 0.5 * a * up, middle + 0.5 * a * up);
+    CHECK(gauge.first != gauge.second);
+    CHECK(gauge_length(s, gauge) < 2.0 * a);
+    CHECK(gauge_opening(s, gauge, up) == 0.0);
+    CHECK_THROWS_WITH(gauge_points(s, middle, middle), Catch::Contains("length of a gauge = 0 m"));
+}
