@@ -264,7 +264,7 @@ def polyhedra(
     solid: Solid,
     short_edge: float,
     allow_hidden: bool,
-    notch: tuple[float, float] | None = ...,
+    notches: list[tuple[float, float, bool]] = ...,
 ) -> Polyhedra: ...
 def own_polyhedra(
     vertices: FloatArray,

@@ -60,15 +60,15 @@ def prepared(
 def _notched(
     spec: RunSpec, specimen: SolidSpecimen, material: Material, lines: Lines
 ) -> SolidSpecimen:
-    """The solid with the notch of its test, if that has one."""
+    """The solid with the notches of its test, if that has some."""
     if not lines:
         return specimen
-    [[(place, _), (_, top)]] = lines
-    cut = notched(specimen, place, top)
-    if cut.notch_depth == 0.0:
+    # a line goes from the outside to the front, up or down
+    cut = notched(specimen, [(x, front, front < edge) for (x, edge), (_, front) in lines])
+    if min(cut.depths()) == 0.0:
         raise InputError(
-            f"run: notch = {top:g} m, ends within the first grains, must pass half of one; take a "
-            "longer notch or smaller grains"
+            f"run: notch = {spec.options['notch']:g} m, ends within the first grains, must pass "
+            "half of one; take a longer notch or smaller grains"
         )
     _require_ligament(spec, cut, material)
     return cut
@@ -169,8 +169,7 @@ def _frame(spec: RunSpec, specimen: Specimen | SolidSpecimen, material: Material
 def _notch(specimen: Specimen | SolidSpecimen) -> FloatArray:
     """Ends (n, 2, 2) [m] of the contacts of the notches."""
     if isinstance(specimen, NotchedSolid):
-        x = specimen.place
-        return np.array([[[x, 0.0], [x, specimen.notch_depth]]])
+        return specimen.lines()
     if isinstance(specimen, SolidSpecimen):
         return np.empty((0, 2, 2))
     names = specimen.spec.joint_names or ()

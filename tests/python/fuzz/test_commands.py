@@ -55,6 +55,7 @@ COMMANDS = st.sampled_from(
         ("run", "bending", "--shape", "box"),
         ("run", "scb", "--shape", "solid-half-disc"),
         ("run", "shear", "--shape", "box"),
+        ("run", "punch", "--shape", "box"),
         *(("specimen", shape) for shape in ("rectangle", "disc", "box", "cylinder")),
         *(("specimen", "image", file, "--pixel", "1e-4") for file in ("nofile.toml", "no.npy")),
         *(("specimen", kind, f"no.{end}") for kind, end in (("ebsd", "ctf"), ("tess", "tess"))),
@@ -68,6 +69,7 @@ RECTANGLE = ["--width", "0.012", "--height", "0.016"]
 BOX = ["--width", "0.009", "--depth", "0.009", "--height", "0.012"]
 BEAM = ["--length", "0.03", "--height", "0.008"]
 FEW = ["--max-strain", "1e-5", "--rate", "50"]
+NEXT = ["--max-displacement", "1e-8", "--rate", "50"]
 SIZES = {
     "run uniaxial --shape box": [*BOX, *FEW],
     "run tension --shape box": [*BOX, *FEW],
@@ -81,8 +83,9 @@ SIZES = {
     "run bending --shape box": [*BEAM, "--depth", "0.008", *FEW],
     "run scb": ["--diameter", "0.024", *FEW],
     "run scb --shape solid-half-disc": ["--diameter", "0.024", "--depth", "0.008", *FEW],
-    "run shear": [*RECTANGLE, "--max-displacement", "1e-8", "--rate", "50"],
-    "run shear --shape box": [*BOX, "--max-displacement", "1e-8", "--rate", "50"],
+    "run shear": [*RECTANGLE, *NEXT],
+    "run shear --shape box": [*BOX, *NEXT],
+    "run punch --shape box": ["--width", "0.03", "--height", "0.024", "--depth", "0.008", *NEXT],
     "run punch": ["--width", "0.03", "--height", "0.024", "--max-displacement", "1e-8"],
     "run sonic": RECTANGLE,
     "run": [*RECTANGLE, *FEW],

@@ -70,7 +70,7 @@ def test_a_crack_runs_up_from_the_notch(beam, model):
 
 
 def test_pieces_of_a_grain_are_of_its_mineral_and_its_size_counts_once(beam):
-    cut = notched(beam, 0.5 * LENGTH, NOTCH)
+    cut = notched(beam, [(0.5 * LENGTH, NOTCH, False)])
     assert cut.cells.cells > beam.cells.cells
     assert cut.cells.contacts != beam.cells.contacts
     assert cut.cells.volumes.sum() == pytest.approx(beam.cells.volumes.sum(), rel=1e-12)
@@ -83,7 +83,9 @@ def test_pieces_of_a_grain_are_of_its_mineral_and_its_size_counts_once(beam):
     mixed = dataclasses.replace(rock, minerals=halves)
     assert np.array_equal(minerals_of(cut, mixed), minerals_of(beam, mixed)[cut.parents])
     given = beam.with_minerals([k % 2 for k in range(len(beam.spheres))])
-    assert np.array_equal(notched(given, 0.5 * LENGTH, NOTCH).minerals, given.minerals[cut.parents])
+    assert np.array_equal(
+        notched(given, [(0.5 * LENGTH, NOTCH, False)]).minerals, given.minerals[cut.parents]
+    )
 
 
 @pytest.mark.long

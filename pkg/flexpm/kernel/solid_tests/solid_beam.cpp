@@ -18,8 +18,6 @@ namespace {
 
 /// Least cosine between a plate's normal and that of a triangle, inwards, that it may touch.
 constexpr double facing = 0.5;
-/// Friction of what does not slide while it presses, as of the plane's pins.
-constexpr double no_sliding = 1e6;
 
 /// Where a line along y crosses a triangle of the surface.
 struct Crossing {
@@ -110,12 +108,7 @@ int add_line_plate(SolidState& s, SolidSide side, const BearingLine& line)
         p.gap.push_back(p.normal.z * one.z - nearest);
     }
     p.opening = p.gap;
-    if (line.pinned) {
-        p.friction = no_sliding;
-        p.rubbed.assign(p.facets.size(), 0.0);
-        p.shear_force.assign(3 * p.facets.size(), 0.0);
-        p.slid.assign(3 * p.facets.size(), 0.0);
-    }
+    if (line.pinned) pin(p);
     s.plates.push_back(p);
     prepare_step(s);
     return static_cast<int>(s.plates.size()) - 1;

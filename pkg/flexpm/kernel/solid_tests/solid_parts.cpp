@@ -146,6 +146,7 @@ int add_patch_plate(SolidState& s, const SolidPatch& patch)
     for (double& gap : p.gap)
         gap = p.bonded || gap - nearest < none ? 0.0 : gap - nearest;
     p.opening = p.gap;
+    if (patch.pinned) pin(p);
     s.plates.push_back(p);
     prepare_step(s);
     return static_cast<int>(s.plates.size()) - 1;

@@ -15,10 +15,12 @@ struct SolidPatch {
     Vector low, high;  ///< corners of the box [m]
     bool bonded = false;
     bool pressed = false;  ///< free to move along its normal under a load
+    bool pinned = false;   ///< it does not slide while it presses
 };
 
-/// Lay a smooth plate on a patch. It does not turn. A surface triangle that leaves the box is
-/// touched where what is within has its middle. Masses must be scaled again afterwards.
+/// Lay a plate on a patch, smooth unless it is pinned. It does not turn. A surface triangle that
+/// leaves the box is touched where what is within has its middle. Masses must be scaled again
+/// afterwards.
 /// @return  number of the plate
 /// @throws std::invalid_argument  for a normal that is no unit vector, or if nothing faces the
 ///                                plate there

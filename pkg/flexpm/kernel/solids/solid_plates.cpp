@@ -115,6 +115,8 @@ void add_contact(const SolidState& s, Plate& p, int triangle)
 
 /// Least cosine between a plate's normal and that of a triangle, inwards, that may touch it.
 constexpr double facing = 0.5;
+/// Friction of what does not slide while it presses, as of the plane's pins.
+constexpr double no_sliding = 1e6;
 /// Gap over the way from end to end that is none: round-off [-].
 constexpr double no_gap = 1e-9;
 
@@ -192,6 +194,14 @@ int keep_from_rolling(SolidState& s, const Plate& p)
 }
 
 }  // namespace
+
+void pin(Plate& plate)
+{
+    plate.friction = no_sliding;
+    plate.rubbed.assign(plate.facets.size(), 0.0);
+    plate.shear_force.assign(3 * plate.facets.size(), 0.0);
+    plate.slid.assign(3 * plate.facets.size(), 0.0);
+}
 
 Plate plain_plate(const SolidState& s, SolidSide side)
 {

@@ -30,6 +30,9 @@ void add_disc_plates(SolidState& s, double jaw_radius = 0.0);
 /// @throws std::invalid_argument  if it is below 0, or there are no two plates that press
 void roughen_plates(SolidState& s, double friction);
 
+/// Let a plate that has all of its contacts not slide while it presses.
+void pin(Plate& plate);
+
 /// A smooth plate for a side, with the stiffnesses of the grains' contacts, that touches nothing.
 Plate plain_plate(const SolidState& s, SolidSide side);
 

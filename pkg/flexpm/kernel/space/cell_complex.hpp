@@ -6,6 +6,7 @@
 #include <flexpm/kernel/core/space_vector.hpp>
 
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace flexpm {
@@ -24,6 +25,7 @@ struct CellComplex {
     std::vector<Vector> vertices;
     std::vector<std::vector<int>> walls;  ///< per vertex, those it lies on, in order
     std::vector<CellFace> faces;
+    int flanks = std::numeric_limits<int>::max();  ///< walls from this one on are of notches
 };
 
 /// Whether each of the walls `some` is one of `all`; both in order.

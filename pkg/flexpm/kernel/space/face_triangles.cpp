@@ -16,6 +16,22 @@ double triangle_quality(Vector a, Vector b, Vector c)
     return longest > 0.0 ? dot(twice_area, twice_area) / (longest * longest) : 0.0;
 }
 
+/// Quality of the worst triangle of the fan from each corner; 0 of a triangle.
+std::vector<double> fan_qualities(
+    const std::vector<Vector>& vertices, const std::vector<int>& corners)
+{
+    const std::size_t n = corners.size();
+    const auto at = [&](std::size_t k) { return vertices[corners[k % n]]; };
+    std::vector<double> qualities(n, 0.0);
+    for (std::size_t from = 0; n > 3 && from < n; ++from) {
+        qualities[from] = 1e300;
+        for (std::size_t k = 1; k + 1 < n; ++k)
+            qualities[from] = std::min(
+                qualities[from], triangle_quality(at(from), at(from + k), at(from + k + 1)));
+    }
+    return qualities;
+}
+
 }  // namespace
 
 std::vector<FaceTriangle> face_triangles(
@@ -23,23 +39,25 @@ std::vector<FaceTriangle> face_triangles(
 {
     const std::size_t n = corners.size();
     const auto at = [&](std::size_t k) { return corners[k % n]; };
-    std::size_t best = 0;
-    double best_quality = -1.0;
-    for (std::size_t from = 0; n > 3 && from < n; ++from) {
-        double worst = 1e300;
-        for (std::size_t k = 1; k + 1 < n; ++k) {
-            worst = std::min(worst,
-                triangle_quality(
-                    vertices[at(from)], vertices[at(from + k)], vertices[at(from + k + 1)]));
-        }
-        if (worst <= best_quality) continue;
-        best_quality = worst;
-        best = from;
-    }
+    const std::vector<double> qualities = fan_qualities(vertices, corners);
+    const auto best = static_cast<std::size_t>(
+        std::max_element(qualities.begin(), qualities.end()) - qualities.begin());
     std::vector<FaceTriangle> triangles;
     for (std::size_t k = 1; k + 1 < n; ++k)
         triangles.push_back({ at(best), at(best + k), at(best + k + 1) });
     return triangles;
+}
+
+void begin_alike(const std::vector<Vector>& vertices, std::vector<int>& corners)
+{
+    const std::vector<double> qualities = fan_qualities(vertices, corners);
+    const double best = *std::max_element(qualities.begin(), qualities.end());
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+        if (qualities[k] == best && (qualities[first] < best || corners[k] < corners[first]))
+            first = k;
+    std::rotate(
+        corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(first), corners.end());
 }
 
 double sharpest_cosine(Vector centre, Vector a, Vector b, Vector c)

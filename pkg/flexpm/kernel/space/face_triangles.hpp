@@ -17,6 +17,10 @@ using FaceTriangle = std::array<int, 3>;
 std::vector<FaceTriangle> face_triangles(
     const std::vector<Vector>& vertices, const std::vector<int>& corners);
 
+/// Let a polygon begin at a corner from which face_triangles() cuts it, the same one as where its
+/// corners run the other way around: both sides of a notch then have the same triangles.
+void begin_alike(const std::vector<Vector>& vertices, std::vector<int>& corners);
+
 /// Six times the volume of the tetrahedron of a centre and a triangle that is counter-clockwise as
 /// seen from the other side.
 inline double six_volumes(Vector centre, Vector a, Vector b, Vector c)

@@ -108,7 +108,8 @@ void number_cells(Polyhedra& p, CellComplex& complex, const std::vector<Vector>&
                 < std::tuple(b.second < 0, b.first, b.second, b.wall);
         });
     p.face_offsets.push_back(0);
-    for (const CellFace& face : complex.faces) {
+    for (CellFace& face : complex.faces) {
+        if (face.wall >= complex.flanks) begin_alike(complex.vertices, face.corners);
         const int second = face.second < 0 ? -1 : cell_of_sphere[face.second];
         p.faces.push_back({ cell_of_sphere[face.first], second, face.wall });
         for (int old : face.corners) {
@@ -158,17 +159,23 @@ void finish_cells(
 
 namespace {
 
-/// Cut cells by a notch; returns the spheres of the pieces that are added.
-std::vector<int> cut_notch(CellComplex& complex, const std::vector<Sphere>& spheres,
-    const Solid& solid, const NotchPlane& notch)
+/// Cut cells by notches; returns the spheres of the pieces that are added.
+std::vector<int> cut_notches(CellComplex& complex, const std::vector<Sphere>& spheres,
+    const Solid& solid, const std::vector<NotchPlane>& notches)
 {
     const double diameter = mean_diameter(spheres), close = zero_edge * diameter;
-    check_finite("place of a notch", notch.x + notch.top, "m");
-    const NotchCut cut = { notch.x, notch.top, close, least_depth * diameter,
-        least_volume * solid.volume / static_cast<double>(spheres.size()),
-        static_cast<int>(solid.walls.size()) };
-    std::vector<int> sources = cut_by_notch(complex, cut);
-    merge_close_vertices(complex, close);
+    const double volume = least_volume * solid.volume / static_cast<double>(spheres.size());
+    const auto whole = static_cast<int>(spheres.size());
+    int wall = complex.flanks = static_cast<int>(solid.walls.size());
+    std::vector<int> sources;
+    for (const NotchPlane& notch : notches) {
+        check_finite("place of a notch", notch.x + notch.front, "m");
+        const NotchCut cut = { notch.x, notch.from_above ? -notch.front : notch.front,
+            notch.from_above, close, least_depth * diameter, volume, wall++ };
+        for (int cell : cut_by_notch(complex, cut))
+            sources.push_back(cell < whole ? cell : sources[cell - whole]);
+        merge_close_vertices(complex, close);
+    }
     return sources;
 }
 
@@ -185,8 +192,7 @@ Polyhedra polyhedra(
     merge_close_vertices(complex, zero_edge * diameter);
     std::vector<Sphere> spheres = given;
     std::vector<bool> moved(given.size());
-    std::vector<int> sources;
-    if (options.notch) sources = cut_notch(complex, given, solid, *options.notch);
+    const std::vector<int> sources = cut_notches(complex, given, solid, options.notches);
     for (int source : sources) {
         spheres.push_back(given[source]);
         moved[source] = true;  // both pieces are meshed from their centroids

@@ -5,7 +5,6 @@
 #include <flexpm/kernel/space/cell_complex.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 
-#include <optional>
 #include <vector>
 
 namespace flexpm {
@@ -14,7 +13,7 @@ namespace flexpm {
 struct PolyhedronFace {
     int cell_a;  ///< its corners are counter-clockwise as seen from outside this cell
     int cell_b;  ///< larger than `cell_a`, or -1 on a wall
-    int wall;    ///< of the solid, its number of walls on a notch's flank, or -1 between cells
+    int wall;    ///< of the solid; on the flanks of notch i its number of walls and i; -1: none
 };
 
 /// Cells over shared vertices. Faces between cells come first, in order of (cell_a, cell_b).
@@ -25,7 +24,7 @@ struct Polyhedra {
     std::vector<PolyhedronFace> faces;
     std::vector<int> face_offsets;  ///< of each face in `face_vertices`, and the end
     std::vector<int> face_vertices;
-    std::vector<int> sphere_of_cell;  ///< both pieces of a cell that a notch has cut have one
+    std::vector<int> sphere_of_cell;  ///< pieces of a cell that a notch has cut have one
     std::vector<int> hidden_spheres;  ///< without a cell
     std::vector<int>
         moved_centres;  ///< cells whose centre is their centroid: the sphere's is not well inside
@@ -41,16 +40,17 @@ struct Polyhedra {
     }
 };
 
-/// Notch from below across a solid, along y. Deviation D99.
+/// Notch across a solid, along y, from below or from above. Deviation D99.
 struct NotchPlane {
-    double x = 0.0;    ///< [m]
-    double top = 0.0;  ///< z of its front [m]
+    double x = 0.0;      ///< [m]
+    double front = 0.0;  ///< z [m]
+    bool from_above = false;
 };
 
 struct PolyhedraOptions {
     double short_edge = 0.0;    ///< edges below this length are collapsed [m]
     bool allow_hidden = false;  ///< drop spheres without a cell (counted) instead of refusing them
-    std::optional<NotchPlane> notch = {};
+    std::vector<NotchPlane> notches = {};  ///< which do not meet in a cell
 };
 
 /// Cells of the spheres inside the solid, in the order of the spheres, short edges collapsed.

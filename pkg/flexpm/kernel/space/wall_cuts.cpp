@@ -175,6 +175,7 @@ private:
     std::vector<std::vector<Segment>> rims;  ///< per old cell, edges of its section, for the left
 
     bool is_right(int v) const { return beyond[v] > notch.close; }
+    double height(Vector p) const { return notch.from_above ? -p.z : p.z; }
 
     static std::uint64_t key(int u, int v)
     {
@@ -230,17 +231,18 @@ private:
 
     /// Area of a section below a height, over twice; the section is the sum of its rim's edges seen
     /// from any point, of which those above the height have none.
-    static double twice_area(const std::vector<std::pair<Vector, Vector>>& rim, double top)
+    double twice_area(const std::vector<std::pair<Vector, Vector>>& rim, double top) const
     {
-        // strips below the rim's edges: integral of min(z, top) dy
+        // strips below the rim's edges: integral of min(height, top) dy
         double sum = 0.0;
         for (const auto& [a, b] : rim) {
-            const double from = std::min(a.z, top), to = std::min(b.z, top), way = b.y - a.y;
-            if ((a.z > top) == (b.z > top) || a.z == b.z) {
+            const double low = height(a), high = height(b);
+            const double from = std::min(low, top), to = std::min(high, top), way = b.y - a.y;
+            if ((low > top) == (high > top) || low == high) {
                 sum += (from + to) * way;
                 continue;
             }
-            const double part = std::clamp((top - a.z) / (b.z - a.z), 0.0, 1.0) * way;
+            const double part = std::clamp((top - low) / (high - low), 0.0, 1.0) * way;
             sum += (from + top) * part + (top + to) * (way - part);
         }
         return std::fabs(sum);
@@ -383,7 +385,7 @@ private:
     {
         double sum = 0.0;
         for (int v : face.corners)
-            sum += complex.vertices[v].z;
+            sum += height(complex.vertices[v]);
         return sum / static_cast<double>(face.corners.size());
     }
 

@@ -18,14 +18,15 @@ void cut_by_walls(CellComplex& complex, const Solid& solid, double close);
 /// A notch across convex cells, and how it may cut them.
 struct NotchCut {
     double x = 0.0;             ///< of its plane
-    double top = 0.0;           ///< z of its front
+    double top = 0.0;           ///< height of its front
+    bool from_above = false;    ///< heights are -z
     double close = 0.0;         ///< vertices no further to the right count as left
     double least_depth = 0.0;   ///< of a piece, from the plane
     double least_volume = 0.0;  ///< of a piece
     int wall = 0;               ///< number that its flanks have
 };
 
-/// Open a notch from below: faces between cells to its left and to its right become two outer
+/// Open a notch: faces between cells to its left and to its right become two outer
 /// faces. A cell whose section with the plane lies at least half below the front is cut in two, or,
 /// if a piece would be too small, stays whole on the side of its larger part, and the notch goes
 /// round the rest of it. Other cells that the plane passes bridge it. Deviation D99.

@@ -72,10 +72,11 @@ namespace {
 		return dense_view(reinterpret_cast<const double*>(centres.data()), centres.size(), 3, py::object(), Access::readOnly).attr("copy")();
 	}
 
-	std::shared_ptr<Polyhedra> polyhedra(py::object rows, const Solid& solid, double shortEdge, bool allowHidden, py::object notch)
+	std::shared_ptr<Polyhedra> polyhedra(py::object rows, const Solid& solid, double shortEdge, bool allowHidden, py::list notches)
 	{
 		flexpm::PolyhedraOptions options { shortEdge, allowHidden };
-		if (!notch.is_none()) options.notch = flexpm::NotchPlane { py::extract<double>(notch[0]), py::extract<double>(notch[1]) };
+		for (py::ssize_t i = 0; i < py::len(notches); ++i)
+			options.notches.push_back({ py::extract<double>(notches[i][0]), py::extract<double>(notches[i][1]), py::extract<bool>(notches[i][2]) });
 		return std::make_shared<Polyhedra>(flexpm::polyhedra(spheres(rows), solid, options));
 	}
 
@@ -203,8 +204,9 @@ void register_space_bindings()
 	        "Random centres without overlap, (n, 3) [m].");
 	py::def("polyhedra",
 	        polyhedra,
-	        (py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("allow_hidden"), py::arg("notch") = py::object()),
-	        "Laguerre cells of rows x, y, z, radius; notch: x and z of the front of one from below, whose flanks have the number of walls as their wall.");
+	        (py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("allow_hidden"), py::arg("notches") = py::list()),
+	        "Laguerre cells of rows x, y, z, radius; notches: x and z of the front of each, and whether it comes from above; flanks of notch i have the "
+	        "number of walls and i as their wall.");
 	py::def("own_polyhedra",
 	        ownPolyhedra,
 	        (py::arg("vertices"), py::arg("faces"), py::arg("spheres"), py::arg("solid"), py::arg("short_edge")),

@@ -121,6 +121,7 @@ KIND = TestKind(
     about="punch-through shear: a platen pushes the part between two pairs of notches out of a "
     "rectangle, whose outer parts stand on supports; its stress is the load over both bridges",
     sizes={"width": 0.08, "height": 0.04},
+    solids=("box",),
     models=BLOCK_MODELS,
     results=dict.fromkeys(BLOCK_MODELS, 2),
     options=(
@@ -144,6 +145,7 @@ KIND = TestKind(
     ligament=lambda frame: min(_bridges(frame)),
     layout=_punched,
     rates=slid.RATES,
+    solid_rates=slid.SOLID_RATES,
     slides=True,
     needs_peak=False,
     no_constants=("youngs_modulus",),

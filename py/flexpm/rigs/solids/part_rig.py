@@ -200,6 +200,7 @@ class SolidPartRig(EndRig):
                 tuple(patch.high),
                 bonded=plate.bonded,
                 pressed=pressed,
+                pinned=plate.pinned,
             )
         except ValueError as error:
             raise InputError(f"run: {error}") from None

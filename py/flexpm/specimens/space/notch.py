@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A notch across a solid, from below, along y (D99). Lengths in metres."""
+"""Notches across a solid, along y (D99). Lengths in metres."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,15 +17,15 @@ from .specimen import SolidSpecimen
 
 @dataclass(frozen=True, eq=False)
 class NotchedSolid(SolidSpecimen):
-    """A solid whose cells a notch has cut: what a test is done on, no specimen to save.
+    """A solid whose cells notches have cut: what a test is done on, no specimen to save.
 
     Attributes:
         whole: The solid before.
-        place: x of the notch [m].
+        notches: x of each notch, z of its front as asked for [m], and whether it comes from above.
     """
 
     whole: SolidSpecimen | None = None
-    place: float = 0.0
+    notches: tuple[tuple[float, float, bool], ...] = ()
 
     @property
     def before(self) -> SolidSpecimen:
@@ -42,35 +43,43 @@ class NotchedSolid(SolidSpecimen):
         """Mean diameter of the spheres, which pieces do not change [m]."""
         return self.before.mean_diameter
 
-    @property
-    def notch_depth(self) -> float:
-        """Area of the notch, as seen along x, over the depth of the specimen [m]."""
-        return _flank_area(self.cells, len(self.outline().walls)) / self.dimensions["depth"]
+    def depths(self) -> list[float]:
+        """Area of each notch, as seen along x, over the depth of the specimen [m]."""
+        walls, across = len(self.outline().walls), self.dimensions["depth"]
+        return [_flank_area(self.cells, walls + i) / across for i in range(len(self.notches))]
+
+    def lines(self) -> FloatArray:
+        """The notches as cut, ends (n, 2, 2) in x and z, from the outside to the front [m]."""
+        top = self.dimensions.get("height", 0.0)
+        ends = [
+            [[x, top], [x, top - depth]] if above else [[x, 0.0], [x, depth]]
+            for (x, _, above), depth in zip(self.notches, self.depths(), strict=True)
+        ]
+        return np.array(ends)
 
     def outline(self) -> Solid:
-        """What the cells fill; flanks of the notch are no walls of it."""
+        """What the cells fill; flanks of notches are no walls of it."""
         return self.before.outline()
 
 
-def notched(specimen: SolidSpecimen, place: float, top: float) -> NotchedSolid:
-    """Cut a plane notch across the whole depth of a solid, from the bottom up.
+def notched(specimen: SolidSpecimen, notches: Sequence[tuple[float, float, bool]]) -> NotchedSolid:
+    """Cut plane notches across the whole depth of a solid.
 
     Args:
         specimen: Made of packed or given spheres.
-        place: x of the notch [m].
-        top: z of its front [m].
+        notches: x of each, z of its front [m], and whether it comes from above.
 
     Raises:
         InputError: for cells that were given, which are not cut.
     """
     if specimen.given is not None:
         raise InputError(
-            f"run: notch = {top:g} m, must be left out for given cells; make the solid of spheres"
+            f"run: notch = {notches[0][1]:g} m, must be left out for given cells; make the solid "
+            "of spheres"
         )
     short = specimen.spec.short_edge * specimen.mean_diameter
-    cells = call(
-        polyhedra, specimen.spheres, specimen.outline(), short, False, (float(place), float(top))
-    )
+    asked = [(float(x), float(front), bool(above)) for x, front, above in notches]
+    cells = call(polyhedra, specimen.spheres, specimen.outline(), short, False, asked)
     parents = cells.sphere_of_cell
     spheres = specimen.spheres[parents]
     pieces = np.bincount(parents)[parents] > 1
@@ -79,7 +88,12 @@ def notched(specimen: SolidSpecimen, place: float, top: float) -> NotchedSolid:
     spheres.setflags(write=False)
     minerals = None if specimen.minerals is None else specimen.minerals[parents]
     return NotchedSolid(
-        spheres, cells, specimen.spec, minerals=minerals, whole=specimen, place=place
+        spheres,
+        cells,
+        specimen.spec,
+        minerals=minerals,
+        whole=specimen,
+        notches=tuple(asked),
     )
 
 
