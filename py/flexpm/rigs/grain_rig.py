@@ -18,6 +18,7 @@ from yade import wrapper
 
 from ..errors import InputError
 from ..kinds.registry import kind_of
+from ..kinds.test_kind import Rig
 from ..models.grains import Model
 from ..require import nearest, quoted
 from ..results import doubts, measures
@@ -76,7 +77,11 @@ class GrainRig(TestRig):
         if recorder.controlled:
             missed = measures.set_point_missed(record, recorder.controlled)
             lines += doubts.of_set_point(recorder.controlled, missed)
-        return lines + [doubts.of_lost_gauge(name) for name in recorder.lostGauges()]
+        lines += [doubts.of_lost_gauge(name) for name in recorder.lostGauges()]
+        if kind_of(self.kind).rig is Rig.PARTS and recorder.loading is not None:
+            growth = measures.growth_before_peak(record, self.scales().crossing_steps)
+            lines += doubts.of_growth(growth)  # a load that grew fast up to its peak
+        return lines
 
     @property
     def confinement(self) -> float | None:

@@ -21,7 +21,6 @@ from ..files import Table
 from ..kinds.registry import OWN, kind_of
 from ..models.grains import Model
 from ..require import NOT_NEGATIVE, require_number
-from ..results import doubts, measures
 from ..runs.loading_rate import Loading, Scales, Schedule, rates_of
 from ..runs.runner import Runner
 from ..specimens.space.any_spec import is_solid
@@ -121,14 +120,6 @@ class PartRig(PartColumns, PartExcavation):
         solver = self.built.solver
         parts, energies = (*solver.plates(), *solver.nodeSets()), solver.energies()
         return energies["boundary_work"] - sum(float(part["work"]) for part in parts)
-
-    @property
-    def warnings(self) -> list[str]:
-        """What makes the record doubtful, also a load that grew fast up to its peak."""
-        if self._recorder.loading is None:
-            return super().warnings
-        growth = measures.growth_before_peak(self.record, self.scales().crossing_steps)
-        return super().warnings + doubts.of_growth(growth)
 
     @property
     def has_scale(self) -> bool:

@@ -16,7 +16,6 @@ from ...errors import InputError
 from ...files import Table
 from ...kinds.layout import BOTTOM, LEFT, RIGHT, TOP, Layout, Place, Plate
 from ...models.grains import Model
-from ...results import doubts, measures
 from ...runs.loading_rate import Scales
 from ...runs.runner import Runner
 from ..grain_rig import GrainRig
@@ -78,14 +77,6 @@ class SolidPartRig(EndRig):
             for name, plate in self._layout.plates.items()
         }
         return {"plates": plates, "width": self._width}
-
-    @property
-    def warnings(self) -> list[str]:
-        """What makes the record doubtful, also a load that grew fast up to its peak."""
-        if self._recorder.loading is None:
-            return super().warnings
-        growth = measures.growth_before_peak(self.record, self.scales().crossing_steps)
-        return super().warnings + doubts.of_growth(growth)
 
     def scales(self) -> Scales:
         """What the loading rate follows from: the elastic solution of the specimen before it."""
