@@ -30,12 +30,16 @@ box_options = combined(
 )
 
 
+def _told(shape: str, sizes: Mapping[str, float]) -> str:
+    return f"{shape} " + ", ".join(f"{name} {value:g}" for name, value in sizes.items())
+
+
 def _shape_options(shapes: Sequence[str], of: str) -> cli_options.Decorator:
     """Options that make a specimen a solid of one of the shapes."""
-    sizes = "; ".join(
-        f"{shape}: " + ", ".join(f"{name} {SIZES[shape][name]:g}" for name in SIZES[shape])
-        for shape in shapes
-    )
+    sizes = "; ".join(_told(shape, SIZES[shape]) for shape in shapes)
+    for name, kind in KINDS.items() if len(shapes) > 1 else ():
+        for shape, own in kind.solid_sizes.items():
+            sizes += f"; of {name}: {_told(shape, own)}"
     return combined(
         click.option(
             "--shape",

@@ -59,6 +59,8 @@ class TestKind:
     solids: tuple[str, ...] = ()  #: kinds of space that it takes, too
     other_hint: str = ""  #: what serves a user of the other dimension, if it takes none of that
     sizes: Mapping[str, float] = field(default_factory=dict)  #: others than the shape's [m]
+    #: The same of its solids, by shape.
+    solid_sizes: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     models: tuple[str, ...] = MODELS
     solid_models: tuple[str, ...] = ()  #: for solids, if it has no rates of them
     #: Number of the results by model, 1 if it has none. A commit that changes a hash of a reference
@@ -126,6 +128,10 @@ class TestKind:
         """Models for a shape; of a solid those that have rates."""
         of_solids = tuple(self.solid_rates) or self.solid_models
         return of_solids if shape in self.solids else self.models
+
+    def sizes_of(self, shape: str) -> Mapping[str, float]:
+        """Sizes that it has unless told otherwise, where they are not the shape's [m]."""
+        return self.solid_sizes.get(shape, {}) if shape in self.solids else self.sizes
 
     @property
     def is_solve(self) -> bool:

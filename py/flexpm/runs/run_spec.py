@@ -82,7 +82,7 @@ class RunSpec(RunInputs):
             one.size: options.get(one.name) or given[one.size] for one in kind.options if one.size
         }
         made = shape if is_solid(shape) else kind.shape
-        return spec_type(shape)(made, **{**kind.sizes, **_named(given)})
+        return spec_type(shape)(made, **{**kind.sizes_of(made), **_named(given)})
 
     @classmethod
     def from_json(cls, content: Table) -> RunSpec:

@@ -368,3 +368,16 @@ def test_names_of_the_models_are_those_of_their_laws_and_elastic_sets():
 
 def test_the_stress_may_fall_as_far_as_a_peak_needs():
     assert LARGEST_STOP_RATIO == 1.0 - PEAK_DROP
+
+
+@pytest.mark.parametrize("test", TESTS)
+def test_each_test_has_sizes_of_its_solids_that_it_takes(test):
+    for shape in kind_of(test).solids:
+        asked = RunSpec.packed(test, {"shape": shape})
+        assert asked.kind == shape
+        material = described(materials.load(None, "rigid"), "rigid")
+        RunSpec(test, asked, material, "rigid")
+        assert asked.volume < 1.3 * SolidSpec(shape).volume
+    if not is_solid(kind_of(test).shape):
+        usual = RunSpec.packed(test, {}).sizes
+        assert usual | kind_of(test).sizes == usual

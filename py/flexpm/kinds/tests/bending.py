@@ -47,6 +47,7 @@ KIND = TestKind(
     about="a beam on two supports, pressed in the middle",
     sizes={"width": 0.18, "height": 0.04},
     solids=("box",),
+    solid_sizes={"box": {"width": 0.09, "depth": 0.02, "height": 0.02}},
     models=BLOCK_MODELS,
     results=dict.fromkeys(BLOCK_MODELS, 4),
     options=(

@@ -122,6 +122,7 @@ KIND = TestKind(
     "rectangle, whose outer parts stand on supports; its stress is the load over both bridges",
     sizes={"width": 0.08, "height": 0.04},
     solids=("box",),
+    solid_sizes={"box": {"width": 0.06, "depth": 0.02, "height": 0.03}},
     models=BLOCK_MODELS,
     results=dict.fromkeys(BLOCK_MODELS, 2),
     options=(

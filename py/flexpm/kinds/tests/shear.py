@@ -59,6 +59,7 @@ KIND = TestKind(
     "displacement",
     sizes={"width": 0.08, "height": 0.04},
     solids=("box",),
+    solid_sizes={"box": {"width": 0.04, "depth": 0.02, "height": 0.02}},
     models=BLOCK_MODELS,
     results=dict.fromkeys(BLOCK_MODELS, 4),
     options=(

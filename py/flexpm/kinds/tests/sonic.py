@@ -31,6 +31,10 @@ KIND = TestKind(
     about="a plane pulse through a rectangle or a solid, from its bottom to its top, with real "
     "masses and without damping, for the speed of its wave",
     solids=("box", "cylinder"),
+    solid_sizes={
+        "box": {"width": 0.01, "depth": 0.01, "height": 0.16},
+        "cylinder": {"diameter": 0.012, "height": 0.16},
+    },
     solid_models=BLOCK_MODELS,
     models=BLOCK_MODELS,
     results=dict.fromkeys(BLOCK_MODELS, 2),  # a cosine that is the same on all machines
