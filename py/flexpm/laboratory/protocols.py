@@ -73,9 +73,10 @@ def run(
             the speed of its `wave`. ``flexpm run --help`` tells all of them.
             A test is over when the stress above the confinement has fallen to `stop_ratio` of its
             peak or the strain reaches `max_strain`.
-        specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc, of the plane or
-            of space; for ``uniaxial``, ``tension`` and ``sonic`` also, for ``triaxial`` only a box
-            or a cylinder, for ``bending`` also a box, z is the axial direction.
+        specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc, for ``scb`` half
+            of one, of the plane or of space; for ``uniaxial``, ``tension`` and ``sonic`` also, for
+            ``triaxial`` only a box or a cylinder, for ``bending``, ``shear`` and ``punch`` also a
+            box, z is the axial direction.
         material: Preset, file, or material; None for the default of the model.
         model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.
