@@ -197,3 +197,24 @@ def test_a_page_without_the_library_says_so(browser, ended, tmp_path, monkeypatc
     shown(browser, folder / page.FILE)
     assert "libjs-three was not installed" in browser.find_element("id", "map-solid-missing").text
     assert browser.get_log("browser") == []
+
+
+def test_a_large_picture_keeps_its_look_in_a_third_of_its_bytes(tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    random = np.random.default_rng(1)
+    colours = random.integers(90, 200, (16, 3))
+    grains = np.kron(colours[random.integers(0, 16, (60, 60))], np.ones((16, 16, 1)))
+    noisy = (grains + random.normal(0.0, 3.0, grains.shape)).clip(0, 255).astype(np.uint8)
+    large, small = tmp_path / "outside.png", tmp_path / "curve.png"
+    image.fromarray(noisy).save(large)
+    image.new("RGB", (40, 40)).save(small)
+    assert large.stat().st_size > 200_000
+    kind, text = page.Picture("Outside", large).source.split(";base64,")
+    assert kind == "data:image/webp"
+    data = base64.b64decode(text)
+    assert len(data) < 0.35 * large.stat().st_size
+    (tmp_path / "page.webp").write_bytes(data)
+    seen = np.asarray(image.open(tmp_path / "page.webp").convert("RGB"), dtype=float)
+    assert np.abs(seen - grains).mean() < 6.0
+    kind, text = page.Picture("Curve", small).source.split(";base64,")
+    assert (kind, base64.b64decode(text)) == ("data:image/png", small.read_bytes())

@@ -9,6 +9,7 @@ the browser.
 from __future__ import annotations
 
 import base64
+import io
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -32,6 +33,9 @@ FILE = "report.html"
 _TEMPLATES = Path(__file__).with_name("templates")
 #: Significant digits of numbers in curves.
 _DIGITS = 6
+#: A picture of more bytes, as of ten thousand grains, is pressed at this quality: a sixth of them
+#: remain.
+_LARGE, _QUALITY = 200_000, 90
 
 
 class Line(NamedTuple):
@@ -83,9 +87,21 @@ class Picture(NamedTuple):
     file: Path
 
     @property
-    def data(self) -> str:
-        """The file as text."""
-        return base64.b64encode(self.file.read_bytes()).decode()
+    def source(self) -> str:
+        """What a browser draws, as text; of a large file not each bit of it."""
+        content, kind = self.file.read_bytes(), "png"
+        if len(content) > _LARGE:
+            content, kind = _pressed(self.file), "webp"
+        return f"data:image/{kind};base64,{base64.b64encode(content).decode()}"
+
+
+def _pressed(file: Path) -> bytes:
+    from PIL import Image
+
+    content = io.BytesIO()
+    with Image.open(file) as picture:
+        picture.convert("RGB").save(content, "WEBP", quality=_QUALITY)
+    return content.getvalue()
 
 
 @dataclass(frozen=True)
