@@ -25,7 +25,7 @@ from ..results import doubts, measures
 from ..results.record import Curve
 from ..runs.loading_rate import SLOWEST_WAIT, Scales, Schedule
 from ..runs.runner import Runner
-from .readings import Balance, Readings, curve_of, part_of
+from .readings import Balance, Readings, balance_of, curve_of
 from .rig import BOTTOM, LEFT, RIGHT, TOP, TestRig
 
 #: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
@@ -142,14 +142,7 @@ class GrainRig(TestRig):
 
         The motion is that of the last measured step.
         """
-        now, energies = self.built.solver.balance(), self.built.solver.energies()
-        mean, outside = (np.array(now[name]) for name in ("mean_stress", "outside_stress"))
-        missing = part_of(np.hypot.reduce(now["missing_force"]), self._pressing_force())
-        stress = part_of(np.abs(mean - outside).max(), np.abs(outside).max())
-        # a product of two velocities is negative where a node turns within a step
-        moving = abs(energies["kinetic_energy"])
-        motion = np.sqrt(part_of(moving, energies["elastic_energy"]))
-        return Balance(max(missing, now["plate_share"]), stress, float(motion))
+        return balance_of(self.built.solver, self._pressing_force())
 
     def _pressing_force(self) -> float:
         """Least force with which the pressure acts on a whole side [N]."""

@@ -46,6 +46,23 @@ class Balance:
         return float(np.max([self.reaction, self.stress, self.motion]))
 
 
+def balance_of(solver: wrapper.GrainSolver, pressing: float) -> Balance:
+    """What grains fail to bear at the last measured step.
+
+    Args:
+        solver: Of the grains.
+        pressing: Least force with which the pressure acts on a whole side [N].
+    """
+    now, energies = solver.balance(), solver.energies()
+    mean, outside = (np.array(now[name]) for name in ("mean_stress", "outside_stress"))
+    missing = part_of(np.hypot.reduce(now["missing_force"]), pressing)
+    stress = part_of(np.abs(mean - outside).max(), np.abs(outside).max())
+    # a product of two velocities is negative where a node turns within a step
+    moving = abs(energies["kinetic_energy"])
+    motion = np.sqrt(part_of(moving, energies["elastic_energy"]))
+    return Balance(max(missing, now["plate_share"]), stress, float(motion))
+
+
 def curve_of(recorder: wrapper.AxialRecorder, same: Mapping[str, str]) -> Curve:
     """The record so far, with columns of gauges, and second names of some columns."""
     names, rows = list(recorder.names), recorder.rows
