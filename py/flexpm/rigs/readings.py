@@ -50,7 +50,7 @@ def balance_of(solver: wrapper.GrainSolver, pressing: float) -> Balance:
     """What grains fail to bear at the last measured step.
 
     Args:
-        solver: Of the grains.
+        solver: It owns the grains.
         pressing: Least force with which the pressure acts on a whole side [N].
     """
     now, energies = solver.balance(), solver.energies()
