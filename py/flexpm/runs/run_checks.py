@@ -10,7 +10,7 @@ from typing import NoReturn
 from ..errors import InputError
 from ..kinds.option import Asked
 from ..kinds.registry import KINDS, names
-from ..kinds.test_kind import TestKind
+from ..kinds.test_kind import Stage, TestKind
 from ..materials.joint import require_joints
 from ..models.options import (
     DAMPING,
@@ -168,7 +168,7 @@ def _check_test(run: RunInputs) -> None:
         hint = run.kind.confine_hint
         if run.is_solid:
             shape = run.specimen.kind
-            confined = names(lambda kind: kind.confined and shape in kind.solids)
+            confined = names(lambda kind: Stage.CONFINE in kind.stages and shape in kind.solids)
             hint = f"; use {confined[0]}" if confined else ""
         raise InputError(f"run: confinement = {run.confinement} Pa, must be 0 for {run.test}{hint}")
 

@@ -407,7 +407,7 @@ class SolidSolver(GrainSolver):
         low: _Vector,
         high: _Vector,
         bonded: bool = ...,
-        pressed: bool = ...,
+        loaded: bool = ...,
         pinned: bool = ...,
     ) -> int: ...
     def pressedAreas(self) -> list[float]: ...

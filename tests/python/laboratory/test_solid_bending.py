@@ -121,7 +121,7 @@ def test_a_depth_asks_for_a_solid_and_its_folder_repeats(tmp_path, capsys, monke
         (["--depth", "0.02", "--control", "cmod"], "control = cmod, must be left out for a box"),
         (["--depth", "0.02", "--span", "0.2"], "span = 0.2 m, must be"),
         (["--depth", "0.02", "--notch", "0.04"], "notch = 0.04 m, must be"),
-        (["--depth", "0.02", "--notch", "0.01", "--span", "0.05"], "2.5 times the height"),
+        (["--depth", "0.02", "--notch", "0.01", "--span", "0.04"], "2.5 times the height"),
         (["--depth", "0.02", "--joints", "no.csv"], "joints = no.csv, must not be given for a box"),
         (["--shape", "cylinder"], "must be a rectangle for bending, or a box"),
     ],

@@ -143,7 +143,7 @@ def test_wrong_input_is_refused_in_one_line(make, message):
     [
         (lambda solid: flexpm.run("biaxial", solid), "rectangle for biaxial; triaxial"),
         (lambda solid: flexpm.run("brazilian", solid), "must be a disc for brazilian"),
-        (lambda solid: flexpm.compare("shear", solid), "must be a rectangle for shear"),
+        (lambda solid: flexpm.compare("scb", solid), "must be a half-disc for scb"),
         (lambda solid: flexpm.run("uniaxial", solid, model="inner"), "one of flexible, rigid"),
         (lambda solid: flexpm.run("uniaxial", solid, points=1), "points = 1, must be left out"),
         (lambda solid: flexpm.run("tension", solid, start="static"), "static, must be left out"),
@@ -195,10 +195,10 @@ def test_the_command_refuses_in_one_line(box, tmp_path, capsys):
     assert "smallest dimension, 0.0015 m" in capsys.readouterr().err
     box.save(tmp_path / "solid.json")
     file = str(tmp_path / "solid.json")
-    for command in (["run", "shear"], ["compare", "shear"]):
+    for command in (["run", "scb"], ["compare", "scb"]):
         assert main([*command, "--specimen", file, "--out", str(tmp_path / "out")]) == 2
         told = capsys.readouterr().err
-        assert "specimen = box, must be a rectangle" in told
+        assert "specimen = box, must be a half-disc" in told
         assert told.count("\n") == 1
 
 

@@ -98,10 +98,10 @@ int SolidSolver::layLine(int side, Real x, Real z, Real width, bool pinned)
 	return flexpm::add_line_plate(state, static_cast<flexpm::SolidSide>(side), { x, z, width, pinned });
 }
 
-int SolidSolver::layPatch(Vector3r normal, Vector3r low, Vector3r high, bool bonded, bool pressed, bool pinned)
+int SolidSolver::layPatch(Vector3r normal, Vector3r low, Vector3r high, bool bonded, bool loaded, bool pinned)
 {
 	const auto vector = [](const Vector3r& v) { return flexpm::Vector { v[0], v[1], v[2] }; };
-	return flexpm::add_patch_plate(state, { vector(normal), vector(low), vector(high), bonded, pressed, pinned });
+	return flexpm::add_patch_plate(state, { vector(normal), vector(low), vector(high), bonded, loaded, pinned });
 }
 
 py::tuple SolidSolver::gaugePoints(Vector3r first, Vector3r second)

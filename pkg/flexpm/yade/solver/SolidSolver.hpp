@@ -27,7 +27,7 @@ public:
 	void holdBottom(bool plate);
 	void holdDisc(Real jawRadius);
 	int  layLine(int side, Real x, Real z, Real width, bool pinned);
-	int  layPatch(Vector3r normal, Vector3r low, Vector3r high, bool bonded, bool pressed, bool pinned);
+	int  layPatch(Vector3r normal, Vector3r low, Vector3r high, bool bonded, bool loaded, bool pinned);
 	py::tuple gaugePoints(Vector3r first, Vector3r second);
 	py::list  pressedAreas();
 	py::tuple elasticConstants();
@@ -59,8 +59,8 @@ public:
 		.def("holdDisc", WithGrains<&SolidSolver::holdDisc>::call, (py::arg("jawRadius") = 0.), "Lay a smooth plate below a disc and one on top, which touch it, or jaws of a radius [m]. What they touch at first does not move along x, and one place of it not along y, else the disc would roll. Scale the masses afterwards.")
 		.def("layLine", WithGrains<&SolidSolver::layLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false),
 			"Lay a plate that bears along a line across the depth, along y at x and z, with the stiffness of a strip of that width [m]: a roller on the bottom (side 0) or a head on top (2). pinned: it does not slide while it presses. Returns its number. Scale the masses afterwards.")
-		.def("layPatch", WithGrains<&SolidSolver::layPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("bonded") = false, py::arg("pressed") = false, py::arg("pinned") = false),
-			"Lay a plate against what lies of the outside in a box from low to high [m] and faces a normal along an axis, which points into the specimen. bonded: it pulls, too; pressed: it is free to move along its normal, for :yref:`PressureController`; pinned: it does not slide while it presses, else it is smooth. Returns its number. Scale the masses afterwards.")
+		.def("layPatch", WithGrains<&SolidSolver::layPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("bonded") = false, py::arg("loaded") = false, py::arg("pinned") = false),
+			"Lay a plate against what lies of the outside in a box from low to high [m] and faces a normal along an axis, which points into the specimen. bonded: it pulls, too; loaded: it is free to move along its normal, for :yref:`PressureController`; pinned: it does not slide while it presses, else it is smooth. Returns its number. Scale the masses afterwards.")
 		.def("gaugePoints", WithGrains<&SolidSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
 			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
 		.def("pressedAreas", WithGrains<&SolidSolver::pressedAreas>::call, "Area on which each plate presses at the last step [m2].")

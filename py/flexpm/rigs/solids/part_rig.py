@@ -190,7 +190,7 @@ class SolidPartRig(EndRig):
                 tuple(patch.low),
                 tuple(patch.high),
                 bonded=plate.bonded,
-                pressed=pressed,
+                loaded=pressed,
                 pinned=plate.pinned,
             )
         except ValueError as error:
