@@ -17,6 +17,7 @@ from .results import vtu as export
 from .results.result import Result
 from .rigs.fitting import rig
 from .rigs.part_rig import PartRig
+from .rigs.solids.part_rig import SolidPartRig
 from .runs.loading_rate import Loading
 from .specimens.specimen import Specimen
 from .studies.comparison import compare
@@ -29,6 +30,7 @@ __all__ = [
     "PartRig",
     "Result",
     "SimulationError",
+    "SolidPartRig",
     "Specimen",
     "build",
     "compare",

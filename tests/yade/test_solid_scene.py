@@ -35,7 +35,7 @@ def solid(box):
         if velocity is not None:
             built.solver.holdEnds(velocity > 0.0)
             built.set_masses()
-            ends = wrapper.SolidEndsController(velocity=velocity)
+            ends = wrapper.SolidLoadingController(velocity=velocity)
             built.add_engines(before=(ends,))
         return built
 

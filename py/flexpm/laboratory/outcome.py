@@ -10,7 +10,6 @@ from ..results.result import Result
 from ..rigs.outcome.result import result_of
 from ..rigs.part_rig import PartRig
 from ..rigs.rig import TestRig
-from ..rigs.solids.part_rig import SolidPartRig
 from ..rigs.wave_rig import WaveRig
 from ..runs.loading_rate import quasistatic_ratio
 from ..runs.run_spec import RunSpec
@@ -22,7 +21,7 @@ def outcome(rig: TestRig, spec: RunSpec) -> Result:
     waiting = spec.loading == "waiting"
     result = result_of(rig, spec.test, _largest_unbalanced(spec), waiting=waiting)
     result.inputs = spec.to_json()
-    if isinstance(rig, PartRig | SolidPartRig):
+    if isinstance(rig, PartRig):
         measure(result, rig, spec)
     if isinstance(rig, WaveRig):
         result.measure_wave(spec.wave or "", rig.distance)

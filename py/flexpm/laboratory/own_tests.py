@@ -20,6 +20,7 @@ from ..rigs.outcome.calls import Again
 from ..rigs.outcome.kept import Leaves
 from ..rigs.part_rig import PartRig
 from ..rigs.rig import TestRig
+from ..rigs.solids.part_rig import SolidPartRig
 from ..runs.run_inputs import RunInputs
 from ..specimens.files import given
 
@@ -79,11 +80,12 @@ def repeat(
 def _rig(built: Model, made: Table, leaves: Leaves) -> TestRig:
     """The rig that a test began with."""
     kind, given = made["call"], made["with"]
-    if kind == "PartRig":
-        return PartRig(built, kind=given["kind"], **leaves)
+    if kind in ("PartRig", "SolidPartRig"):
+        parts = SolidPartRig if kind == "SolidPartRig" else PartRig
+        return parts(built, kind=given["kind"], **leaves)
     if kind == "rig":
         return rig_of(built, tension=given["pull"], **leaves)
     raise InputError(
-        f"rerun: rig = {quoted(kind)}, must be PartRig or rig; take the version of flexpm that has "
-        "made the test"
+        f"rerun: rig = {quoted(kind)}, must be PartRig, SolidPartRig or rig; take the version of "
+        "flexpm that has made the test"
     )

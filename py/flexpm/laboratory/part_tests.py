@@ -19,6 +19,7 @@ from ..models.grains import Model
 from ..results.result import Result
 from ..rigs.part_rig import PartRig
 from ..rigs.parts import Part
+from ..rigs.places import Place
 from ..rigs.solids.part_rig import SolidPartRig
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Runner
@@ -28,6 +29,8 @@ from ..specimens.specimen import Specimen
 
 #: Joint that notches are, in these tests.
 _NOTCH = "notch"
+#: Opening of a notch at the bottom; of a solid that of two lines across the depth.
+_MOUTH = "cmod"
 #: Share of the height that is round-off.
 _TOUCHES = 1e-9
 
@@ -83,19 +86,18 @@ def _require_ligament(spec: RunSpec, cut: Specimen | SolidSpecimen, material: Ma
         )
 
 
-def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig | SolidPartRig:
+def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig:
     """A built specimen between the parts of its test."""
     assert spec.kind.layout is not None, spec.test
     layout = spec.kind.layout(_frame_of(spec, built))
-    if spec.is_solid:
-        return SolidPartRig(built, layout, test=spec.test, runner=runner)
-    rig = PartRig(built, kind=spec.test, runner=runner)
-    parts = {name: _lay(rig, plate) for name, plate in layout.plates.items()}
+    rig = (SolidPartRig if spec.is_solid else PartRig)(built, kind=spec.test, runner=runner)
+    depth = built.specimen.dimensions["depth"] if spec.is_solid else None
+    parts = {name: _lay(rig, plate, depth) for name, plate in layout.plates.items()}
     if layout.pressed:
         rig.pressed = parts[layout.pressed]
     rig.drive(
         [parts[name] for name in layout.driven],
-        layout.direction,
+        _along(layout.direction, depth),
         against=[parts[name] for name in layout.against],
         area=layout.area,
         length=layout.length,
@@ -104,13 +106,17 @@ def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig | So
     for name, column in layout.also.items():
         rig.also(name, column)
     for name, one in layout.openings.items():
-        rig.gauge(name, one.first, one.second, along=one.along)
+        if isinstance(rig, SolidPartRig) and name == _MOUTH:
+            rig.read_mouth(one.first[0], one.second[0])
+            continue
+        first, second = (_at(place, depth) for place in (one.first, one.second))
+        rig.gauge(name, first, second, along=one.along and _along(one.along, depth))
     for name, (part, direction) in layout.ways.items():
-        rig.way_of(name, parts[part], direction)
+        rig.way_of(name, parts[part], _along(direction, depth))
     return rig
 
 
-def measure(result: Result, rig: PartRig | SolidPartRig, spec: RunSpec) -> None:
+def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
     """Fill what the test measures beside its peak."""
     if spec.kind.measure is None:
         return
@@ -128,16 +134,30 @@ def notch_depth(specimen: Specimen) -> float:
     return float(np.max(_notch(specimen)[..., 1], initial=bottom)) - bottom
 
 
-def _lay(rig: PartRig, plate: Plate) -> Part:
+def _lay(rig: PartRig, plate: Plate, depth: float | None) -> Part:
     if plate.side is not None:
         return rig.platen(plate.side, bonded=plate.bonded)
+    place, normal = _at(plate.place, depth), _along(plate.normal, depth)
+    if isinstance(rig, SolidPartRig) and plate.length is not None and depth is not None:
+        edges = (plate.length, depth, plate.length)
+        return rig.support(place, edges, normal=normal, pinned=plate.pinned, bonded=plate.bonded)
     return rig.support(
-        plate.place,
+        place,
         plate.length,
-        normal=plate.normal,
+        normal=normal,
         pinned=plate.pinned,
         bonded=plate.bonded,
     )
+
+
+def _at(place: Place, depth: float | None) -> Place:
+    """A place of a layout; of a solid, whose x and z it has, in the middle of the depth [m]."""
+    return place if depth is None else (place[0], 0.5 * depth, place[1])
+
+
+def _along(direction: Place, depth: float | None) -> Place:
+    """A direction of a layout; of a solid, whose x and z it has."""
+    return direction if depth is None else (direction[0], 0.0, direction[1])
 
 
 def _frame_of(spec: RunSpec, built: Model) -> Frame:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import TypeVar
 
 import numpy as np
 import yade
@@ -25,7 +26,7 @@ from ..require import (
 )
 from ..specimens.kernel_input import Circle
 from .parts import HeldNodes, Part, RigPart
-from .places import Place, Where, in_region, require_vector
+from .places import PLANE, Place, Where, in_region, require_vector
 
 #: Length of a support unless told otherwise, in mean diameters of the grains [-]: a plate does not
 #: turn with a beam, which would rest on the inner end of a long one.
@@ -39,7 +40,10 @@ _OFF_RIM, _SAME = 0.05, 1e-9
 #: Traits of a plate that are told where it has them.
 _EXTRA = ("strip", "radius", "machine", "seated")
 #: Friction of a part that is pinned: it does not slide as long as it presses [-].
-_NO_SLIDING = 1e6
+NO_SLIDING = 1e6
+
+
+Answer = TypeVar("Answer")
 
 
 class PartLayout:
@@ -51,6 +55,8 @@ class PartLayout:
 
     built: Model
     _recorder: wrapper.AxialRecorder
+    #: Along which places and directions are given.
+    _axes = PLANE
 
     def _begin_layout(self) -> None:
         """See which parts the scene has already: the calls of its script find them again."""
@@ -97,7 +103,7 @@ class PartLayout:
             require_vector("support: place", place),
             require_number("support: length", length, POSITIVE, "m"),
             require_vector("support: normal", normal, ""),
-            _NO_SLIDING if require_flag("support: pinned", pinned) else friction,
+            NO_SLIDING if require_flag("support: pinned", pinned) else friction,
             require_flag("support: bonded", bonded),
             _strip("support", strip),
             require_flag("support: seated", seated),
@@ -256,7 +262,7 @@ class PartLayout:
             self.built.set_masses()
         return Part(self, self.built.solver, kind, number)
 
-    def _asked(self, kind: str, call: Callable[[], int]) -> int:
+    def _asked(self, kind: str, call: Callable[[], Answer]) -> Answer:
         """What the kernel says to a call, its refusal in the name of the kind."""
         try:
             return call()

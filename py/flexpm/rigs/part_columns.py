@@ -35,16 +35,17 @@ class PartColumns(PartLayout):
 
         Args:
             name: Name of the column.
-            first: x and y of a point; the nearest node of the grains on its side is taken [m].
+            first: x, y and in space z of a point; the nearest node of the grains on its side is
+                taken [m].
             second: The other one.
-            along: x and y of the direction in which the second one moves away from the first one;
+            along: Direction in which the second one moves away from the first one;
                 None for that from the first to the second place.
             strain: Record the strain between them [-] instead of the opening [m].
         """
         label = f"gauge {self._gauge_name(name)}"
         one, two = (
-            require_vector(f"{label}: first", first),
-            require_vector(f"{label}: second", second),
+            require_vector(f"{label}: first", first, axes=self._axes),
+            require_vector(f"{label}: second", second, axes=self._axes),
         )
         strain = require_flag(f"{label}: strain", strain)
         try:
@@ -53,8 +54,8 @@ class PartColumns(PartLayout):
             raise InputError(f"{label}: {error}") from None
         if strain and not length > 0.0:
             raise InputError(f"{label}: length = 0 m, must be above 0; take points further off")
-        apart = (two[0] - one[0], two[1] - one[1])
-        direction = require_direction(label, apart if along is None else along)
+        apart = [two[axis] - one[axis] for axis in range(len(self._axes))]
+        direction = require_direction(label, apart if along is None else along, self._axes)
         base = length if strain else 0.0
         self._add_gauge(
             name,
@@ -68,7 +69,7 @@ class PartColumns(PartLayout):
         """
         label = f"gauge {self._gauge_name(name)}"
         part = require_part(f"{label}: part", self, part, RigPart)
-        gauge = wrapper.Gauge(direction=require_direction(label, direction))
+        gauge = wrapper.Gauge(direction=require_direction(label, direction, self._axes))
         if isinstance(part, HeldNodes):
             gauge.nodes = part.nodes
         else:

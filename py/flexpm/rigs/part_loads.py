@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..files import Table
 from ..require import NOT_NEGATIVE, POSITIVE, require_number
 from .layout import PartLayout
-from .parts import HeldNodes, Part, RigPart, numbers, require_apart, require_parts
+from .parts import HeldNodes, Part, RigPart, in_words, numbers, require_apart, require_parts
 from .places import Place, require_direction, require_vector
 
 #: Cosines of directions that differ by less than this from 1 are along each other [-].
@@ -43,7 +43,7 @@ class PartLoads(PartLayout):
 
         Args:
             parts: They move alike.
-            direction: x and y of the loading.
+            direction: That of the loading, x, y and in space z.
             against: Parts that hold the specimen against the load: the load is then the mean of
                 both sides', and their difference is recorded.
             area: Load over stress [m2].
@@ -61,7 +61,7 @@ class PartLoads(PartLayout):
                 along the direction, or a size out of range; in a scene whose record has begun, for
                 anything else than it began with.
         """
-        unit = require_direction("drive", direction)
+        unit = require_direction("drive", direction, self._axes)
         moved = require_parts("drive: part", self, parts, RigPart)
         held = require_parts("drive: part against", self, against, RigPart)
         if not moved:
@@ -235,11 +235,12 @@ def _require_soft(
     stiffness = require_number("drive: machine", machine, POSITIVE, "N/m")
     if len(moved) != 1 or not isinstance(moved[0], Part):
         raise InputError("drive: machine: parts = others than one plate, must be one plate alone")
-    x, y = moved[0].normal
-    if abs(abs(x * unit[0] + y * unit[1]) - 1.0) > _ALONG:
+    normal = moved[0].normal
+    way = unit[: len(normal)]
+    if abs(abs(np.dot(normal, way)) - 1.0) > _ALONG:
         raise InputError(
-            f"drive: machine: direction = ({unit[0]:g}, {unit[1]:g}), must be along the normal of "
-            f"the {moved[0]}, ({x:g}, {y:g})"
+            f"drive: machine: direction = {in_words(way)}, must be along the normal of "
+            f"the {moved[0]}, {in_words(normal)}"
         )
     return stiffness
 

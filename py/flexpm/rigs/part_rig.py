@@ -44,6 +44,8 @@ class PartRig(PartColumns, PartExcavation):
     """
 
     built: Model
+    #: What makes such a rig, and whether of solids.
+    _call, _of_solids = "PartRig", False
 
     def __init__(
         self,
@@ -66,13 +68,13 @@ class PartRig(PartColumns, PartExcavation):
             InputError: for a test that is not one of the model's; ``"own"`` is one of deformable
                 and of rigid grains; for a folder that holds something else.
         """
-        if is_solid(built.specimen.kind):
+        if is_solid(built.specimen.kind) != self._of_solids:
+            must = "a solid; flexpm.PartRig" if self._of_solids else "plane; flexpm.SolidPartRig"
             raise InputError(
-                f"PartRig: specimen = {built.specimen.kind}, must be plane; flexpm.rig holds a "
-                "solid between its ends"
+                f"{self._call}: specimen = {built.specimen.kind}, must be {must} is for this one"
             )
-        rates_of(kind, built.name)
-        kept = KeptTest.of(built, "PartRig", leaves, kind=kind)
+        rates_of(kind, built.name, solid=self._of_solids)
+        kept = KeptTest.of(built, self._call, leaves, kind=kind)
         super().__init__(built, runner=runner if kept is None else kept.runner)
         self.disc = False
         self._kind = kind
@@ -196,7 +198,7 @@ class PartRig(PartColumns, PartExcavation):
         pressing = self._pressing()
         if self.pressed is None or pressing is None:
             return 0.0
-        return pressing.pressure * self.pressed.width * self.built.specimen.thickness
+        return pressing.pressure * self.pressed.area
 
     def _crossing_steps(self) -> float:
         """Steps of a disc of the specimen's area: what is open before it is pressed has none."""
@@ -235,7 +237,8 @@ class PartRig(PartColumns, PartExcavation):
         frame, plates = self._frame, self.built.solver.plates()
         if frame.drivenSets:
             return
-        way = math.copysign(1.0, velocity) * np.array([frame.direction[0], frame.direction[1]])
+        along = [frame.direction[axis] for axis in range(len(self._axes))]
+        way = math.copysign(1.0, velocity) * np.array(along)
         for number in frame.driven:
             plate = plates[number]
             if plate["bonded"] or plate["pressed"] or any(plate["force"]):
@@ -248,7 +251,7 @@ class PartRig(PartColumns, PartExcavation):
             "lay it with bonded=True"
         )
 
-    def _take_hold(self) -> wrapper.PlateController:
+    def _take_hold(self) -> wrapper.LoadingController:
         frame = self._frame
         self._let_go(frame.driven)
         loading = wrapper.PlateController(
@@ -268,11 +271,12 @@ class PartRig(PartColumns, PartExcavation):
         assert isinstance(loading, wrapper.PlateController)
         if velocity and loading.started and loading.velocity.norm() == 0.0:
             loading = self._take_hold_again(loading)
+            assert isinstance(loading, wrapper.PlateController)
         speed = -velocity  # a rig that presses gives that of its upper end, upwards
         loading.velocity = (speed * direction[0], speed * direction[1], speed * direction[2])
         loading.velocityFactor = factor
 
-    def _take_hold_again(self, stood: wrapper.PlateController) -> wrapper.PlateController:
+    def _take_hold_again(self, stood: wrapper.LoadingController) -> wrapper.LoadingController:
         """Begin anew along the elastic solution: the motion of a loading that has stood is over."""
         self.built.remove_engines(stood)
         fresh = self._take_hold()

@@ -27,9 +27,9 @@ class RigPart:
     number: int  #: among the plates, or among the sets of nodes
 
     @property
-    def force(self) -> tuple[float, float]:
-        """On the specimen, x and y [N]."""
-        return self._pair("force")
+    def force(self) -> tuple[float, ...]:
+        """On the specimen, x, y and in space z [N]."""
+        return self._vector("force")
 
     @property
     def work(self) -> float:
@@ -37,28 +37,26 @@ class RigPart:
         return float(self._now["work"])
 
     @property
-    def place(self) -> tuple[float, float]:
-        """Where it is, x and y [m]."""
-        return self._pair("place")
+    def place(self) -> tuple[float, ...]:
+        """Where it is, x, y and in space z [m]."""
+        return self._vector("place")
 
     @property
-    def displacement(self) -> tuple[float, float]:
-        """Since it was laid, x and y [m]."""
-        return self._pair("displacement")
+    def displacement(self) -> tuple[float, ...]:
+        """Since it was laid, x, y and in space z [m]."""
+        return self._vector("displacement")
 
     def __str__(self) -> str:
         """Its kind and place."""
-        x, y = self.place
-        return f"{self.kind} at ({x:g}, {y:g}) m"
+        return f"{self.kind} at {in_words(self.place)} m"
 
     @property
     def _now(self) -> Table:
         found: Table = getattr(self.solver, self._list)()[self.number]
         return found
 
-    def _pair(self, name: str) -> tuple[float, float]:
-        x, y = self._now[name]
-        return float(x), float(y)
+    def _vector(self, name: str) -> tuple[float, ...]:
+        return tuple(float(one) for one in self._now[name])
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,13 +67,24 @@ class Part(RigPart):
 
     @property
     def width(self) -> float:
-        """Width of the outline before it [m]."""
+        """Width of the outline before it, in the plane [m].
+
+        Raises:
+            InputError: in space, where a plate has an area.
+        """
+        if "width" not in self._now:
+            raise InputError(f"part: width of {self}, has none in space; ask for its area")
         return float(self._now["width"])
 
     @property
-    def normal(self) -> tuple[float, float]:
+    def area(self) -> float:
+        """Area of the outside before it [m2]; 0 of a line."""
+        return float(self._now["area"])
+
+    @property
+    def normal(self) -> tuple[float, ...]:
         """Into the specimen, a unit vector."""
-        return self._pair("normal")
+        return self._vector("normal")
 
     @property
     def contact_angle(self) -> float:
@@ -142,6 +151,11 @@ class HeldNodes(RigPart):
 
 
 Kind = TypeVar("Kind", bound=RigPart)
+
+
+def in_words(vector: Iterable[float], digits: int = 6) -> str:
+    """A vector in brackets, its components with so many digits."""
+    return f"({', '.join(f'{one:.{digits}g}' for one in vector)})"
 
 
 def require_parts(label: str, rig: object, given: object, kind: type[Kind]) -> list[Kind]:

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points, directions, regions and names of columns, as scripts give them. SI units."""
+"""Points, directions, regions and names of columns, as scripts give them. SI units.
+
+Places of the plane are x and y, those of space x, y and z.
+"""
 
 from __future__ import annotations
 
@@ -12,31 +15,46 @@ from ..arrays import BoolArray, FloatArray
 from ..errors import InputError
 from ..require import POSITIVE, quoted, require_number, require_text
 
-#: x and y.
+#: x and y, and z of space.
 Place = Sequence[float]
+#: Axes of the plane, and of space.
+PLANE, SPACE = "xy", "xyz"
 #: Tells of places, by arrays of their x and y [m], which of them a region has.
 Where = Callable[[FloatArray, FloatArray], BoolArray]
-#: x, y and 0, as YADE has vectors.
+#: x, y and z, 0 in the plane, as YADE has vectors.
 Vector = tuple[float, float, float]
 
 
 def require_pair(label: str, value: object, unit: str = "m") -> tuple[float, float]:
     """Return x and y as finite numbers, or raise InputError."""
-    x, y = _two(f"{label} = {quoted(value)}, must be x and y", value)
-    return require_number(f"{label}: x", x, unit=unit), require_number(f"{label}: y", y, unit=unit)
+    x, y, _ = require_vector(label, value, unit)
+    return x, y
 
 
-def require_vector(label: str, value: object, unit: str = "m") -> Vector:
-    """The same with a zero behind them."""
-    return (*require_pair(label, value, unit), 0.0)
+def require_vector(label: str, value: object, unit: str = "m", axes: str = PLANE) -> Vector:
+    """Return finite numbers along axes, with a zero behind those of the plane, or raise InputError.
+
+    Args:
+        label: Names the value in messages.
+        value: What a script has given.
+        unit: Its unit.
+        axes: ``PLANE`` or ``SPACE``.
+    """
+    words = f"{', '.join(axes[:-1])} and {axes[-1]}"
+    numbers = _several(f"{label} = {quoted(value)}, must be {words}", value, len(axes))
+    x, y, *z = (
+        require_number(f"{label}: {axis}", one, unit=unit)
+        for axis, one in zip(axes, numbers, strict=True)
+    )
+    return x, y, (z[0] if z else 0.0)
 
 
-def require_direction(label: str, value: object) -> Vector:
+def require_direction(label: str, value: object, axes: str = PLANE) -> Vector:
     """Return a direction as a unit vector, or raise InputError."""
-    x, y = require_pair(f"{label}: direction", value, "")
-    size = math.hypot(x, y)
+    x, y, z = require_vector(f"{label}: direction", value, "", axes)
+    size = math.hypot(x, y, z)
     require_number(f"{label}: length of its direction", size, POSITIVE)
-    return x / size, y / size, 0.0
+    return x / size, y / size, z / size
 
 
 def require_column(label: str, name: object, taken: Sequence[str]) -> str:
@@ -62,12 +80,12 @@ def in_region(
     if sum(region is not None for region in (box, disc, where)) != 1:
         raise InputError("hold: region = none or several, must be one of box, disc and where")
     if box is not None:
-        ends = _two(f"hold: box = {quoted(box)}, must be two opposite corners", box)
+        ends = _several(f"hold: box = {quoted(box)}, must be two opposite corners", box)
         corners = np.array([require_pair("hold: corner of the box", one) for one in ends])
         low, high = corners.min(axis=0), corners.max(axis=0)
         found: BoolArray = np.all((places >= low) & (places <= high), axis=1)
     elif disc is not None:
-        both = _two(f"hold: disc = {quoted(disc)}, must be a centre and a radius", disc)
+        both = _several(f"hold: disc = {quoted(disc)}, must be a centre and a radius", disc)
         centre, radius = both[0], require_number("hold: radius of the disc", both[1], POSITIVE, "m")
         middle = np.array(require_pair("hold: centre of the disc", centre))
         found = np.hypot(*(places - middle).T) <= radius
@@ -80,12 +98,13 @@ def in_region(
     return found
 
 
-def _two(refusal: str, value: object) -> tuple[object, object]:
-    """Both things of a pair."""
+def _several(refusal: str, value: object, count: int = 2) -> list[object]:
+    """So many things of a list."""
+    found: list[object]
     try:
         found = list(value)  # type: ignore[call-overload]
     except TypeError:
         found = []
-    if len(found) != 2 or isinstance(value, str):
+    if len(found) != count or isinstance(value, str):
         raise InputError(refusal)
-    return found[0], found[1]
+    return found

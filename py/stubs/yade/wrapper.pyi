@@ -168,8 +168,9 @@ class EndDisplacementController(LoadingController):
     def preload(self, share: float, steps: int) -> None: ...
     def release(self) -> None: ...
 
-class SolidEndsController(LoadingController):
+class SolidLoadingController(LoadingController):
     velocity: float
+    gripped: bool
 
 class PlateController(LoadingController):
     plates: list[int]
@@ -230,12 +231,6 @@ class DiscFrame(_EndsFrame): ...
 class EndFrame(TestFrame): ...
 class SolidDiscFrame(TestFrame): ...
 
-class SolidPartFrame(TestFrame):
-    driven: list[int]
-    @property
-    def direction(self) -> Vector3: ...
-    loadingScales: list[float]
-
 class PartFrame(TestFrame):
     driven: list[int]
     holding: list[int]
@@ -253,6 +248,10 @@ class PartFrame(TestFrame):
     def elasticState(
         self, pressed: list[int], pressures: list[float], way: float, load: float | None
     ) -> _Named: ...
+
+class SolidPartFrame(PartFrame):
+    middle: float
+    reach: float
 
 class AxialRecorder(Engine):
     frame: TestFrame | None
@@ -401,16 +400,24 @@ class SolidSolver(GrainSolver):
     def holdBottom(self, plate: bool = ...) -> None: ...
     def holdDisc(self, jawRadius: float = ...) -> None: ...
     def layLine(self, side: int, x: float, z: float, width: float, pinned: bool = ...) -> int: ...
+    def findLine(self, side: int, x: float, z: float, width: float, pinned: bool = ...) -> int: ...
     def layPatch(
         self,
         normal: _Vector,
         low: _Vector,
         high: _Vector,
+        friction: float = ...,
         bonded: bool = ...,
-        loaded: bool = ...,
-        pinned: bool = ...,
     ) -> int: ...
-    def pressedAreas(self) -> list[float]: ...
+    def findPatch(
+        self,
+        normal: _Vector,
+        low: _Vector,
+        high: _Vector,
+        friction: float = ...,
+        bonded: bool = ...,
+    ) -> int: ...
+    def freePlate(self, plate: int) -> None: ...
     def elasticConstants(self) -> tuple[float, float]: ...
     def holdSide(self, side: int, x: bool = ..., y: bool = ..., z: bool = ...) -> None: ...
     def overlaps(self) -> dict[str, Any]: ...

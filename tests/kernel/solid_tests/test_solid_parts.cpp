@@ -55,9 +55,9 @@ SolidState sheared(const Packing& p, bool rigid)
         }
     }
     SolidPatch base = side(p, up, 0.0, 0.0), lid = side(p, -1.0 * up, 0.0, 0.0);
-    base.bonded = lid.pressed = true;
+    base.bonded = true;
     add_patch_plate(s, base);
-    add_patch_plate(s, lid);
+    free_plate(s, add_patch_plate(s, lid));
     scale_masses(s, damping, dt);
     return s;
 }
@@ -176,11 +176,11 @@ TEST_CASE("A plate under a load follows what it presses on, and the works add up
     }
 }
 
-TEST_CASE("A plate that is not laid for a load takes none", "[solids]")
+TEST_CASE("A plate that no load moves takes none", "[solids]")
 {
     const Packing p = packing(40, 5);
     SolidState s = sheared(p, true);
-    CHECK_THROWS_WITH(press(s, 0, 1e6), Catch::Contains("lay it as one that is pressed"));
+    CHECK_THROWS_WITH(press(s, 0, 1e6), Catch::Contains("let a load move it"));
     CHECK_THROWS_WITH(press(s, 9, 1e6), Catch::Contains("plate = 9, must be the number"));
     CHECK_THROWS_WITH(press(s, 5, -1.0), Catch::Contains("pressure on a plate = -1 Pa"));
     CHECK_THROWS_WITH(

@@ -118,12 +118,7 @@ void set_velocity(Assembly& a, int plate, Vector velocity)
     check_finite("velocity of a plate", velocity.y, "m/s");
     check_finite("velocity of a plate", velocity.z, "m/s");
     Plate& p = a.plates[plate];
-    // the half step that a loaded plate was promised is not taken any more
-    if (p.loaded) {
-        p.boundary_work_next = p.damping_work_next = p.drag_work_next = 0.0;
-        p.kinetic = p.unbalanced = 0.0;
-    }
-    p.loaded = false;
+    let_go(p);
     p.velocity = velocity;
 }
 

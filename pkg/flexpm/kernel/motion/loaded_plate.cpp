@@ -24,4 +24,12 @@ void integrate_loaded(Plate& plate, double undamped, bool bears, double dt, doub
     plate.unbalanced = bears ? sums.largest[0] : plate.load;
 }
 
+void let_go(Plate& plate)
+{
+    if (!plate.loaded) return;
+    plate.boundary_work_next = plate.damping_work_next = plate.drag_work_next = 0.0;
+    plate.kinetic = plate.unbalanced = 0.0;
+    plate.loaded = false;
+}
+
 }  // namespace flexpm

@@ -14,4 +14,7 @@ namespace flexpm {
 /// @param bears  whether it lies before a grain that is not loose
 void integrate_loaded(Plate& plate, double undamped, bool bears, double dt, double damping);
 
+/// Let no load move a plate any more; the half step that it was promised is not taken.
+void let_go(Plate& plate);
+
 }  // namespace flexpm

@@ -80,9 +80,7 @@ double mean_way(const SolidState& s, double x, double off)
     return length > 0.0 ? sum / length : 0.0;
 }
 
-}  // namespace
-
-int add_line_plate(SolidState& s, SolidSide side, const BearingLine& line)
+Plate plate_along(const SolidState& s, SolidSide side, const BearingLine& line)
 {
     check_positive("width of a line plate", line.width, "m");
     check_finite("place of a line plate", line.x + line.z, "m");
@@ -108,10 +106,20 @@ int add_line_plate(SolidState& s, SolidSide side, const BearingLine& line)
         p.gap.push_back(p.normal.z * one.z - nearest);
     }
     p.opening = p.gap;
-    if (line.pinned) pin(p);
-    s.plates.push_back(p);
-    prepare_step(s);
-    return static_cast<int>(s.plates.size()) - 1;
+    if (line.pinned) roughen(p, no_sliding);
+    return p;
+}
+
+}  // namespace
+
+int add_line_plate(SolidState& s, SolidSide side, const BearingLine& line)
+{
+    return add_plate(s, plate_along(s, side, line));
+}
+
+int find_line_plate(const SolidState& s, SolidSide side, const BearingLine& line)
+{
+    return find_alike(s, plate_along(s, side, line));
 }
 
 double mouth_opening(const SolidState& s, const Mouth& mouth)

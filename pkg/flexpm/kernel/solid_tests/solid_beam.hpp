@@ -24,6 +24,9 @@ struct BearingLine {
 ///                                of the surface faces the plate there
 int add_line_plate(SolidState& s, SolidSide side, const BearingLine& line);
 
+/// Number of the plate that add_line_plate() has laid so; -1 if there is none.
+int find_line_plate(const SolidState& s, SolidSide side, const BearingLine& line);
+
 /// Where a notch opens on the bottom.
 struct Mouth {
     double middle = 0.0;  ///< x [m]

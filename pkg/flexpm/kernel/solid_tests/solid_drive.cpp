@@ -2,6 +2,7 @@
 #include <flexpm/kernel/solid_tests/solid_drive.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/motion/loaded_plate.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
@@ -16,8 +17,10 @@ constexpr int axial = 2;
 
 void set_velocity(SolidState& s, const SolidDrive& drive, double velocity)
 {
-    for (int plate : drive.plates)
+    for (int plate : drive.plates) {
+        let_go(s.plates[plate]);
         s.plates[plate].velocity = velocity * drive.direction;
+    }
     if (drive.plates.empty()) prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
 }
 
@@ -89,8 +92,11 @@ void start(SolidState& s, const SolidDrive& drive, const SolidField& field, doub
 {
     check(velocity, dt);
     check_finite("part of the field", part, "");
-    for (Plate& plate : s.plates)
+    for (std::size_t i = 0; i < s.plates.size(); ++i) {
+        Plate& plate = s.plates[i];
         plate.displacement = {};
+        if (plate.loaded) plate.displacement = part * field.plates[i] * plate.normal;
+    }
     for (int plate : drive.plates)
         s.plates[plate].displacement = part * drive.length * drive.direction;
     set_velocity(s, drive, velocity);

@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solid_tests/solid_drive.hpp>
+#include <flexpm/kernel/solid_tests/solid_softening.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/solids/solid_plan.hpp>
@@ -22,6 +23,8 @@ constexpr double facing = 0.5;
 /// Share of a triangle that is none, and gap over the size of the box that is none: round-off [-].
 constexpr double no_share = 1e-12, no_gap = 1e-9;
 constexpr double small_strain = 1e-7;  ///< at which all is linear, but no round-off
+/// Strength of a test over the stress at which its first point softens, as of the plane [-].
+constexpr double strength_over_softening = 2.0;
 
 /// Place in a triangle: weights of its corners.
 using Weights = std::array<double, 3>;
@@ -113,16 +116,19 @@ EndForces ends_of(const SolidState& s, const PartGeometry& parts)
 
 }  // namespace
 
-int add_patch_plate(SolidState& s, const SolidPatch& patch)
+namespace {
+
+Plate plate_before(const SolidState& s, const SolidPatch& patch)
 {
+    check_not_negative("friction of a plate", patch.friction, "");
+    if (patch.bonded && patch.friction > 0.0)
+        refuse("friction of a plate", patch.friction, "", "must be 0 of one that is bonded");
     if (!(std::fabs(norm(patch.normal) - 1.0) < no_gap))
         refuse("normal of a plate", norm(patch.normal), "", "must be a unit vector");
     Plate p = plain_plate(s, SolidSide::bottom);
     p.side = -1;
     p.normal = patch.normal;
-    p.position = 0.5 * (patch.low + patch.high);
     p.bonded = patch.bonded;
-    p.loaded = patch.pressed;
     double nearest = std::numeric_limits<double>::infinity();
     for (int t = 0; t < static_cast<int>(s.surface.grain.size()); ++t) {
         const Vector outwards = area_vector(s, t);
@@ -136,20 +142,33 @@ int add_patch_plate(SolidState& s, const SolidPatch& patch)
         p.shares.insert(p.shares.end(), piece.middle.begin(), piece.middle.end());
         p.area.push_back(piece.share * norm(outwards));
         p.width += p.area.back();
-        p.gap.push_back(dot(p.normal, at(corners, piece.middle)));
+        const Vector place = at(corners, piece.middle);
+        p.position = p.position + p.area.back() * place;
+        p.gap.push_back(dot(p.normal, place));
         nearest = std::min(nearest, p.gap.back());
     }
     if (p.facets.empty()) {
         refuse("triangles before a plate", 0.0, "", "must be above 0; lay it on the specimen");
     }
+    p.position = (1.0 / p.width) * p.position;
     const double none = no_gap * norm(patch.high - patch.low);
     for (double& gap : p.gap)
         gap = p.bonded || gap - nearest < none ? 0.0 : gap - nearest;
     p.opening = p.gap;
-    if (patch.pinned) pin(p);
-    s.plates.push_back(p);
-    prepare_step(s);
-    return static_cast<int>(s.plates.size()) - 1;
+    if (patch.friction > 0.0) roughen(p, patch.friction);
+    return p;
+}
+
+}  // namespace
+
+int add_patch_plate(SolidState& s, const SolidPatch& patch)
+{
+    return add_plate(s, plate_before(s, patch));
+}
+
+int find_patch_plate(const SolidState& s, const SolidPatch& patch)
+{
+    return find_alike(s, plate_before(s, patch));
 }
 
 SolidFrame solid_part_frame(const SolidState& s, const PartGeometry& parts)
@@ -174,17 +193,22 @@ TestScales solid_part_scales(
     const SolidState& s, const PartGeometry& parts, double strength, double dt)
 {
     check(s, parts);
-    check_positive("strength", strength, "Pa");
+    check_not_negative("strength", strength, "Pa");
     const double way = small_strain * parts.length;
+    const SolidField field = elastic_field(s, drive_of(parts));
     SolidState moved = s;
-    start(moved, drive_of(parts), elastic_field(s, drive_of(parts)), way, 1.0, true, dt);
+    start(moved, drive_of(parts), field, way, 1.0, true, dt);
     const EndForces ends = ends_of(moved, parts);
     const double stiffness = 0.5 * (ends.top - ends.bottom) / way;
     check_positive("stiffness that the driven plates feel", stiffness, "N/m");
     const double mass = 2.0 * kinetic_of_velocities(moved);
-    const double width = std::sqrt(parts.area);
-    return { std::sqrt(3.0 * mass / stiffness) / dt, stiffness * parts.length / parts.area,
-        strength, parts.length, width, scale_inputs(s, Sense::tension, width, dt).damage_share };
+    const double width = std::sqrt(parts.area), modulus = stiffness * parts.length / parts.area;
+    if (strength == 0.0) {
+        const double softening = elastic_strain(s, field, 1.0) / parts.length;
+        strength = strength_over_softening * softening * modulus;
+    }
+    return { std::sqrt(3.0 * mass / stiffness) / dt, modulus, strength, parts.length, width,
+        scale_inputs(s, Sense::tension, width, dt).damage_share };
 }
 
 }  // namespace flexpm

@@ -11,20 +11,21 @@ namespace flexpm {
 
 /// Part of the outside that lies in a box and faces a plate.
 struct SolidPatch {
-    Vector normal;     ///< into the specimen, along an axis
-    Vector low, high;  ///< corners of the box [m]
+    Vector normal;          ///< into the specimen, along an axis
+    Vector low, high;       ///< corners of the box [m]
+    double friction = 0.0;  ///< coefficient [-]; 0: smooth
     bool bonded = false;
-    bool pressed = false;  ///< free to move along its normal under a load
-    bool pinned = false;   ///< it does not slide while it presses
 };
 
-/// Lay a plate on a patch, smooth unless it is pinned. It does not turn. A surface triangle that
-/// leaves the box is touched where what is within has its middle. Masses must be scaled again
-/// afterwards.
+/// Lay a plate on a patch. It does not turn. A surface triangle that leaves the box is touched
+/// where what is within has its middle. Masses must be scaled again afterwards.
 /// @return  number of the plate
-/// @throws std::invalid_argument  for a normal that is no unit vector, or if nothing faces the
-///                                plate there
+/// @throws std::invalid_argument  for a normal that is no unit vector, a friction below 0, one of a
+///                                bonded plate, or if nothing faces the plate there
 int add_patch_plate(SolidState& s, const SolidPatch& patch);
+
+/// Number of the plate that add_patch_plate() has laid on a patch; -1 if there is none.
+int find_patch_plate(const SolidState& s, const SolidPatch& patch);
 
 /// Frame of a test by plates, whose load is positive as the driven ones push; as part_frame() of
 /// the plane. There is no lateral strain.
@@ -36,7 +37,8 @@ SolidDrive drive_of(const PartGeometry& parts);
 
 /// Its scales, from the elastic solution, as part_scales() has them; `width` is the root of the
 /// area.
-/// @param strength  stress that the test may reach, roughly [Pa]
+/// @param strength  stress that the test may reach, roughly [Pa]; 0: twice that at which the first
+///                  point of the unloaded specimen softens
 /// @throws std::runtime_error  if the forces do not come to balance
 TestScales solid_part_scales(
     const SolidState& s, const PartGeometry& parts, double strength, double dt);

@@ -84,13 +84,19 @@ Vector rub(Plate& plate, int index, Vector way)
     return force;
 }
 
-/// Sum of the forces of a jaw's contacts on the grains [N].
-Vector force_of_jaw(const Plate& plate)
+/// Sum of the forces of a plate's contacts on the grains [N].
+Vector force_of(const Plate& plate)
 {
     Vector sum;
-    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
-        sum = sum + push(plate, i) * normal_at(plate, i);
-    return sum;
+    double pushes = 0.0;
+    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
+        if (plate.normals.empty())
+            pushes += push(plate, i);
+        else
+            sum = sum + push(plate, i) * normal_at(plate, i);
+        if (plate.friction > 0.0) sum = sum + axes_of(plate.shear_force, i);
+    }
+    return sum + pushes * plate.normal;
 }
 
 /// Let a plate press as the pressure has done that acts on its side, and store what that takes.
@@ -115,8 +121,6 @@ void add_contact(const SolidState& s, Plate& p, int triangle)
 
 /// Least cosine between a plate's normal and that of a triangle, inwards, that may touch it.
 constexpr double facing = 0.5;
-/// Friction of what does not slide while it presses, as of the plane's pins.
-constexpr double no_sliding = 1e6;
 /// Gap over the way from end to end that is none: round-off [-].
 constexpr double no_gap = 1e-9;
 
@@ -171,6 +175,13 @@ bool bears_any(const SolidState& s, const Plate& plate)
         [&](int triangle) { return !s.grains.loose[s.surface.grain[triangle]]; });
 }
 
+Plate& plate_at(SolidState& s, int plate)
+{
+    if (plate < 0 || plate >= static_cast<int>(s.plates.size()))
+        refuse("plate", plate, "", "must be the number of a plate; lay one first");
+    return s.plates[plate];
+}
+
 void hold(SolidState& s, int node, int axis)
 {
     const int i = s.grains.component(node, axis);
@@ -195,12 +206,31 @@ int keep_from_rolling(SolidState& s, const Plate& p)
 
 }  // namespace
 
-void pin(Plate& plate)
+void roughen(Plate& plate, double friction)
 {
-    plate.friction = no_sliding;
+    plate.friction = friction;
     plate.rubbed.assign(plate.facets.size(), 0.0);
     plate.shear_force.assign(3 * plate.facets.size(), 0.0);
     plate.slid.assign(3 * plate.facets.size(), 0.0);
+}
+
+int add_plate(SolidState& s, const Plate& plate)
+{
+    s.plates.push_back(plate);
+    prepare_step(s);
+    return static_cast<int>(s.plates.size()) - 1;
+}
+
+int find_alike(const SolidState& s, const Plate& plate)
+{
+    const auto same = [&](const Plate& there) {
+        return there.side == plate.side && norm(there.normal - plate.normal) == 0.0
+            && norm(there.position - plate.position) == 0.0 && there.facets == plate.facets
+            && there.area == plate.area && there.friction == plate.friction
+            && there.bonded == plate.bonded;
+    };
+    const auto found = std::find_if(s.plates.begin(), s.plates.end(), same);
+    return found == s.plates.end() ? -1 : static_cast<int>(found - s.plates.begin());
 }
 
 Plate plain_plate(const SolidState& s, SolidSide side)
@@ -260,12 +290,8 @@ void roughen_plates(SolidState& s, double friction)
             "must be 2 that press; roughen the ends before a pressure acts");
     }
     for (Plate& plate : s.plates) {
-        plate.friction = friction;
-        const auto count = static_cast<int>(plate.facets.size());
-        plate.rubbed.assign(count, 0.0);
-        plate.shear_force.assign(3 * plate.facets.size(), 0.0);
-        plate.slid.assign(3 * plate.facets.size(), 0.0);
-        for (int i = 0; i < count; ++i) {
+        roughen(plate, friction);
+        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
             const Vector way = middle(s.grains.displacement, s.surface.nodes[plate.facets[i]]);
             set_axes(plate.slid, i, along_face(plate, way));
         }
@@ -323,22 +349,26 @@ void add_plate_forces(SolidState& s, int block)
     }
 }
 
+void free_plate(SolidState& s, int plate)
+{
+    Plate& p = plate_at(s, plate);
+    if (!(p.width > 0.0 && p.normals.empty()))
+        refuse("area of a plate", p.width, "m^2", "must be above 0; lay one on a part of the side");
+    if (p.loaded) return;
+    p.loaded = true;
+    p.load = dot(p.normal, p.force);  // it stays where it is until a pressure acts
+    p.velocity = {};
+}
+
 void press(SolidState& s, int plate, double pressure)
 {
     check_not_negative("pressure on a plate", pressure, "Pa");
-    if (plate < 0 || plate >= static_cast<int>(s.plates.size()))
-        refuse("plate", plate, "", "must be the number of a plate; lay one first");
-    Plate& p = s.plates[plate];
+    Plate& p = plate_at(s, plate);
     if (!(p.loaded && p.mass > 0.0)) {
         refuse("mass of a plate", p.mass, "kg",
-            "must be above 0; lay it as one that is pressed, and scale the masses");
+            "must be above 0; let a load move it, and scale the masses");
     }
     p.load = pressure * p.width;
-}
-
-bool has_loaded_plate(const SolidState& s)
-{
-    return std::any_of(s.plates.begin(), s.plates.end(), [](const Plate& p) { return p.loaded; });
 }
 
 void sum_plates(SolidState& s, double dt, double damping)
@@ -346,10 +376,7 @@ void sum_plates(SolidState& s, double dt, double damping)
     for (std::size_t number = 0; number < s.plates.size(); ++number) {
         Plate& plate = s.plates[number];
         const Vector before = plate.force;
-        double sum = 0.0;
-        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
-            sum += push(plate, i);
-        plate.force = plate.normals.empty() ? sum * plate.normal : force_of_jaw(plate);
+        plate.force = force_of(plate);
         if (plate.loaded) {
             const double undamped = dot(plate.normal, s.loading.of_plate(number).velocity);
             if (dt > 0.0) integrate_loaded(plate, undamped, bears_any(s, plate), dt, damping);

@@ -30,8 +30,18 @@ void add_disc_plates(SolidState& s, double jaw_radius = 0.0);
 /// @throws std::invalid_argument  if it is below 0, or there are no two plates that press
 void roughen_plates(SolidState& s, double friction);
 
-/// Let a plate that has all of its contacts not slide while it presses.
-void pin(Plate& plate);
+/// Friction of a plate that does not slide while it presses [-].
+constexpr double no_sliding = 1e6;
+
+/// Let a plate that has all of its contacts bear friction.
+/// @param friction  coefficient [-]
+void roughen(Plate& plate, double friction);
+
+/// Lay a plate that has all of its contacts; returns its number.
+int add_plate(SolidState& s, const Plate& plate);
+
+/// Number of the plate that was laid as this one; -1 if there is none.
+int find_alike(const SolidState& s, const Plate& plate);
 
 /// A smooth plate for a side, with the stiffnesses of the grains' contacts, that touches nothing.
 Plate plain_plate(const SolidState& s, SolidSide side);
@@ -50,13 +60,14 @@ Vector normal_at(const Plate& plate, int index);
 /// Add the forces of plates on the nodes of a block of grains, at their present places.
 void add_plate_forces(SolidState& s, int block);
 
+/// Let a load move a plate along its normal. Masses must be scaled again afterwards.
+/// @throws std::invalid_argument  if there is no such plate, or it is one of a line or a jaw
+void free_plate(SolidState& s, int plate);
+
 /// Let a pressure act on a plate that is free to move along its normal, see Plate::loaded [Pa].
-/// @throws std::invalid_argument  if there is no such plate, its masses are not scaled, or for a
+/// @throws std::invalid_argument  if there is no such plate, its mass is not scaled, or for a
 ///         pressure below 0
 void press(SolidState& s, int plate, double pressure);
-
-/// Whether a load moves any plate.
-bool has_loaded_plate(const SolidState& s);
 
 /// Sum forces and works of all plates after the grains have moved by a step, and integrate the
 /// loaded ones.

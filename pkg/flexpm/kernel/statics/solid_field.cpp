@@ -88,10 +88,18 @@ void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& s
     }
 }
 
-/// Forces of an intact specimen that plates which do not touch it have no part in.
-LinearSolid touched_solid(const SolidState& s)
+bool is_driven(const LinearSolid::Press& p, const SolidDrive& drive)
+{
+    return std::find(drive.plates.begin(), drive.plates.end(), p.plate) != drive.plates.end();
+}
+
+/// Forces of an intact specimen that plates which do not touch it have no part in. No load moves
+/// those that are driven.
+LinearSolid touched_solid(const SolidState& s, const SolidDrive& drive)
 {
     LinearSolid solid = linear_solid(s);
+    for (LinearSolid::Press& p : solid.presses)
+        p.floats = p.floats && !is_driven(p, drive);
     auto& presses = solid.presses;
     presses.erase(std::remove_if(presses.begin(), presses.end(),
                       [](const LinearSolid::Press& p) { return !p.touches; }),
@@ -105,8 +113,7 @@ std::vector<double> push_of(const LinearSolid& solid, const SolidDrive& drive)
     const Vector way = drive.length * drive.direction;
     std::vector<double> on_nodes(3 * solid.places.size(), 0.0);
     for (const LinearSolid::Press& p : solid.presses) {
-        const auto& driven = drive.plates;
-        if (std::find(driven.begin(), driven.end(), p.plate) == driven.end()) continue;
+        if (!is_driven(p, drive)) continue;
         for (int k = 0; k < 3; ++k)
             add_triple(on_nodes.data(), p.nodes[k],
                 (3.0 * p.shares[k] * (p.stiffness * dot(p.normal, way) / 3.0)) * p.normal);
@@ -118,7 +125,7 @@ std::vector<double> push_of(const LinearSolid& solid, const SolidDrive& drive)
 ///               where the solution begins
 SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, bool rises, double low)
 {
-    const LinearSolid solid = touched_solid(s);
+    const LinearSolid solid = touched_solid(s, drive);
     const std::size_t size = 3 * solid.places.size();
     std::vector<std::uint8_t> held(size, 0);
     std::size_t next = 0;
@@ -149,7 +156,7 @@ SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, bool ris
 
 SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, bool rises, double low)
 {
-    const LinearSolid solid = touched_solid(s);
+    const LinearSolid solid = touched_solid(s, drive);
     const RigidSolid rigid = rigid_solid(s, solid);
     std::vector<double> guess(6 * static_cast<std::size_t>(s.grains.count), 0.0);
     for (int g = 0; rises && g < s.grains.count; ++g)

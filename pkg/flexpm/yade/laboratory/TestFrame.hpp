@@ -152,7 +152,7 @@ public:
 };
 REGISTER_SAVED(SolidDiscFrame);
 
-class SolidPartFrame : public TestFrame {
+class SolidPartFrame : public PartFrame {
 public:
 	~SolidPartFrame() override;
 	flexpm::AxialObservation observed(GrainSolver& solver) const override;
@@ -161,17 +161,10 @@ public:
 	vector<Real>             values(GrainSolver& solver, Real stress, Real strain) const override;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(SolidPartFrame, TestFrame,
-		"Plates that hold and load a solid: lines and patches that :yref:`SolidSolver.layLine` and layPatch have laid, by their numbers.",
-		((vector<int>, driven,,, "Plates that load it [-]."))
-		((vector<int>, holding,,, "Plates that hold it against them [-]."))
-		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven ones load, a unit vector [-]."))
-		((Real, area, 0.,, "Load over the record's stress [m2]."))
-		((Real, length, 0.,, "Displacement over the record's strain [m]."))
-		((Real, strength, 0.,, "Stress that the test may reach, roughly [Pa]."))
+	YADE_CLASS_BASE_DOC_ATTRS(SolidPartFrame, PartFrame,
+		"The same of a solid, and lines and patches that :yref:`SolidSolver.layLine` and layPatch have laid.",
 		((Real, middle, 0.,, "x of the middle of the bottom, where a notch opens [m]."))
 		((Real, reach, 0.,, "Distance from there to either side, of the lines whose parting is the column cmod [m]; 0: there is none."))
-		((vector<Real>, loadingScales,,, "Scales as the loading found the specimen, in the order of AxialRecorder.scales(); empty before it."))
 	);
 	// clang-format on
 

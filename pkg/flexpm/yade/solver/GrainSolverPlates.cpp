@@ -135,6 +135,7 @@ py::list GrainSolver::plates()
 		d["side"]          = p.side;
 		d["normal"]        = py::make_tuple(p.normal.x, p.normal.y);
 		d["width"]         = p.width;
+		d["area"]          = a.area_of(p.width);
 		d["friction"]      = p.friction;
 		d["bonded"]        = p.bonded;
 		d["pressed"]       = p.loaded;

@@ -98,11 +98,30 @@ int SolidSolver::layLine(int side, Real x, Real z, Real width, bool pinned)
 	return flexpm::add_line_plate(state, static_cast<flexpm::SolidSide>(side), { x, z, width, pinned });
 }
 
-int SolidSolver::layPatch(Vector3r normal, Vector3r low, Vector3r high, bool bonded, bool loaded, bool pinned)
+int SolidSolver::findLine(int side, Real x, Real z, Real width, bool pinned)
 {
-	const auto vector = [](const Vector3r& v) { return flexpm::Vector { v[0], v[1], v[2] }; };
-	return flexpm::add_patch_plate(state, { vector(normal), vector(low), vector(high), bonded, loaded, pinned });
+	return flexpm::find_line_plate(state, static_cast<flexpm::SolidSide>(side), { x, z, width, pinned });
 }
+
+namespace {
+
+	flexpm::Vector fromYade(const Vector3r& v) { return { v[0], v[1], v[2] }; }
+
+	py::tuple tupleOf(flexpm::Vector v) { return py::make_tuple(v.x, v.y, v.z); }
+
+} // namespace
+
+int SolidSolver::layPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded)
+{
+	return flexpm::add_patch_plate(state, { fromYade(normal), fromYade(low), fromYade(high), friction, bonded });
+}
+
+int SolidSolver::findPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded)
+{
+	return flexpm::find_patch_plate(state, { fromYade(normal), fromYade(low), fromYade(high), friction, bonded });
+}
+
+void SolidSolver::freePlate(int plate) { flexpm::free_plate(state, plate); }
 
 py::tuple SolidSolver::gaugePoints(Vector3r first, Vector3r second)
 {
@@ -116,12 +135,26 @@ py::tuple SolidSolver::elasticConstants()
 	return py::make_tuple(found.youngs_modulus, found.poissons_ratio);
 }
 
-py::list SolidSolver::pressedAreas()
+py::list SolidSolver::plates()
 {
-	py::list areas;
-	for (const auto& plate : state.plates)
-		areas.append(flexpm::pressed_area(plate));
-	return areas;
+	py::list all;
+	for (const flexpm::Plate& p : state.plates) {
+		py::dict d;
+		d["side"]         = p.side;
+		d["normal"]       = tupleOf(p.normal);
+		d["area"]         = p.width;
+		d["friction"]     = p.friction;
+		d["bonded"]       = p.bonded;
+		d["pressed"]      = p.loaded;
+		d["place"]        = tupleOf(p.position + p.displacement);
+		d["work"]         = p.boundary_work;
+		d["displacement"] = tupleOf(p.displacement);
+		d["velocity"]     = tupleOf(p.velocity);
+		d["force"]        = tupleOf(p.force);
+		d["pressed_area"] = flexpm::pressed_area(p);
+		all.append(d);
+	}
+	return all;
 }
 
 void SolidSolver::clearPressure(int side) { flexpm::set_pressure(state, side, 0.); }

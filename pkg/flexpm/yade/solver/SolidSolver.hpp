@@ -27,9 +27,12 @@ public:
 	void holdBottom(bool plate);
 	void holdDisc(Real jawRadius);
 	int  layLine(int side, Real x, Real z, Real width, bool pinned);
-	int  layPatch(Vector3r normal, Vector3r low, Vector3r high, bool bonded, bool loaded, bool pinned);
+	int  findLine(int side, Real x, Real z, Real width, bool pinned);
+	int  layPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded);
+	int  findPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded);
+	void freePlate(int plate);
 	py::tuple gaugePoints(Vector3r first, Vector3r second);
-	py::list  pressedAreas();
+	py::list  plates();
 	py::tuple elasticConstants();
 	void      clearPressure(int side);
 	void      holdSide(int side, bool x, bool y, bool z);
@@ -59,11 +62,13 @@ public:
 		.def("holdDisc", WithGrains<&SolidSolver::holdDisc>::call, (py::arg("jawRadius") = 0.), "Lay a smooth plate below a disc and one on top, which touch it, or jaws of a radius [m]. What they touch at first does not move along x, and one place of it not along y, else the disc would roll. Scale the masses afterwards.")
 		.def("layLine", WithGrains<&SolidSolver::layLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false),
 			"Lay a plate that bears along a line across the depth, along y at x and z, with the stiffness of a strip of that width [m]: a roller on the bottom (side 0) or a head on top (2). pinned: it does not slide while it presses. Returns its number. Scale the masses afterwards.")
-		.def("layPatch", WithGrains<&SolidSolver::layPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("bonded") = false, py::arg("loaded") = false, py::arg("pinned") = false),
-			"Lay a plate against what lies of the outside in a box from low to high [m] and faces a normal along an axis, which points into the specimen. bonded: it pulls, too; loaded: it is free to move along its normal, for :yref:`PressureController`; pinned: it does not slide while it presses, else it is smooth. Returns its number. Scale the masses afterwards.")
+		.def("findLine", WithGrains<&SolidSolver::findLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false), "Number of the plate that layLine has laid so; -1 without one.")
+		.def("layPatch", WithGrains<&SolidSolver::layPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false),
+			"Lay a plate against what lies of the outside in a box from low to high [m] and faces a normal, a unit vector that points into the specimen. friction: coefficient [-]; bonded: it pulls, too. Returns its number. Scale the masses afterwards.")
+		.def("findPatch", WithGrains<&SolidSolver::findPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false), "Number of the plate that layPatch has laid so; -1 without one.")
+		.def("freePlate", WithGrains<&SolidSolver::freePlate>::call, (py::arg("plate")), "Let a load move a plate along its normal, for :yref:`PressureController`; it stands until then. Scale the masses afterwards.")
 		.def("gaugePoints", WithGrains<&SolidSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
 			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
-		.def("pressedAreas", WithGrains<&SolidSolver::pressedAreas>::call, "Area on which each plate presses at the last step [m2].")
 		.def("elasticConstants", WithGrains<&SolidSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio of the unloaded grains between smooth ends, by their linear solution; they stay as they are.")
 		.def("clearPressure", WithGrains<&SolidSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side.")
 		.def("balance", WithGrains<&SolidSolver::balance>::call,
@@ -78,7 +83,7 @@ public:
 		.def("counts", WithGrains<&SolidSolver::counts>::call, "Numbers of grains, contacts as bonded, nodes and tetrahedra.")
 		.def("overlaps", WithGrains<&SolidSolver::overlaps>::call, "The deepest overlap of grains that share no contact, which nothing keeps apart, as a dictionary: depth [m], of_diameter, over the mean diameter [-], grains, a pair, and pairs, how many overlap.")
 		.def("crossingSteps", WithGrains<&SolidSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a ball of the grains of a diameter [m] [-].")
-		.def("plates", &SolidSolver::nothing, "None: those on the ends of rigid grains are the solver's own.")
+		.def("plates", WithGrains<&SolidSolver::plates>::call, "All plates as dictionaries: what they are, where, and what they bear at the last step; those on ends, too.")
 		.def("nodeSets", &SolidSolver::nothing, "None.")
 	);
 	// clang-format on

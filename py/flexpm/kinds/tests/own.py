@@ -16,6 +16,7 @@ KIND = TestKind(
     rig=Rig.PARTS,
     stages=(),
     rates=dict.fromkeys(BLOCK_MODELS, _RATES),
+    solid_rates=dict.fromkeys(BLOCK_MODELS, _RATES),
     needs_peak=False,  # a script says when it is over
     words=Words(
         Drawn("axial_strain", "displacement over length", 1.0, "SI"),

@@ -64,7 +64,7 @@ class SolidDiscRig(EndRig):
     @property
     def contact_width(self) -> float:
         """Mean width on which the plates touch the disc, over its depth [m]."""
-        areas = self._solid.pressedAreas()
+        areas = [plate["pressed_area"] for plate in self._solid.plates()]
         return float(np.mean(areas)) / self.built.specimen.dimensions["depth"]
 
     def _new_frame(self) -> wrapper.TestFrame:
@@ -74,6 +74,6 @@ class SolidDiscRig(EndRig):
     def _take_hold(self) -> wrapper.LoadingController:
         self._solid.holdDisc(self._radius)
         self.built.set_masses()
-        upper = wrapper.SolidEndsController()
+        upper = wrapper.SolidLoadingController()
         self.built.add_engines(before=(upper,))
         return upper

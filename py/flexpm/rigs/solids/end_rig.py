@@ -11,14 +11,13 @@ from ...errors import InputError
 from ...files import Table
 from ...kinds.option import END_FRICTION
 from ...require import NOT_NEGATIVE, require_number
-from ...results import doubts
-from ..grain_rig import GrainRig
 from ..rig import LEFT, RIGHT, TOP
+from .solid_grains import SolidGrains
 
 FRONT, BACK = 4, 5
 
 
-class EndRig(GrainRig):
+class EndRig(SolidGrains):
     """Both ends of a solid, along z: nodes of deformable grains, plates on rigid ones.
 
     Pressures act on the surface triangles of either, and on the top until it is driven.
@@ -132,24 +131,10 @@ class EndRig(GrainRig):
                 self._solid.clearPressure(TOP)
         self._solid.holdEnds(self.tension, self._friction)
         self.built.set_masses()
-        ends = wrapper.SolidEndsController()
+        ends = wrapper.SolidLoadingController()
         self.built.add_engines(before=(ends,))
         return ends
 
     def _move(self, velocity: float, factor: float) -> None:
-        ends = self.built.required(wrapper.SolidEndsController)
+        ends = self.built.required(wrapper.SolidLoadingController)
         ends.velocity, ends.velocityFactor = velocity, factor
-
-    def _measures(self) -> tuple[str, ...]:
-        return ()
-
-    @property
-    def _solid(self) -> wrapper.SolidSolver:
-        solver = self.built.solver
-        assert isinstance(solver, wrapper.SolidSolver)
-        return solver
-
-    @property
-    def warnings(self) -> list[str]:
-        """What makes the record doubtful, see `GrainRig.warnings`; grains that lie on others."""
-        return super().warnings + doubts.of_overlap(self._solid.overlaps()["of_diameter"])

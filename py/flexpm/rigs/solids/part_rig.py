@@ -1,232 +1,326 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rig of a solid between plates: lines across its depth and parts of its sides. SI units.
-
-Places and directions of a layout are x and y of the plane: x and z of a solid. Deviation D99.
-"""
+"""A rig of parts around a solid: plates before its sides, and lines across its depth. SI units."""
 
 from __future__ import annotations
 
-from dataclasses import astuple, dataclass
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import NoReturn, Unpack
 
 import numpy as np
 from yade import wrapper
 
-from ...arrays import FloatArray
 from ...errors import InputError
 from ...files import Table
-from ...kinds.layout import BOTTOM, LEFT, RIGHT, TOP, Layout, Place, Plate
+from ...kinds.registry import OWN
 from ...models.grains import Model
-from ...runs.loading_rate import Scales
-from ...runs.runner import Runner
-from ..grain_rig import GrainRig
-from .end_rig import EndRig
+from ...require import NOT_NEGATIVE, quoted, require_flag, require_number, require_whole
+from ...runs.runner import Runner, Span
+from ...specimens.space.specimen import SolidSpecimen
+from ..layout import NO_SLIDING
+from ..outcome.calls import recording
+from ..outcome.kept import Leaves
+from ..part_rig import PartRig
+from ..parts import Part, RigPart
+from ..places import SPACE, Place, Vector, require_direction, require_vector
+from .patches import (
+    BOTTOM,
+    TOP,
+    Patch,
+    box_around,
+    edges_of,
+    inwards_at,
+    patch_around,
+    side_patch,
+)
+from .solid_grains import SolidGrains
 
 #: Width that the stiffness of a line stands for, in mean diameters of the grains, as the length of
-#: a support in the plane; and what a part of a side reaches off its plane [-].
-_WIDTH, _OFF = 0.5, 0.5
-#: Normals of plates along whole sides.
-_INWARDS = {BOTTOM: (0.0, 1.0), RIGHT: (-1.0, 0.0), TOP: (0.0, -1.0), LEFT: (1.0, 0.0)}
+#: a support in the plane [-].
+_WIDTH = 0.5
+#: Least part of a line's normal along z [-].
+_UPRIGHT = 0.5
 
 
-@dataclass(frozen=True)
-class _Patch:
-    """A part of a side before a plate."""
+@recording
+class SolidPartRig(SolidGrains, PartRig):
+    """A solid between parts, each a plate before a part of its outside.
 
-    normal: FloatArray
-    low: FloatArray  #: corners of the box around it [m]
-    high: FloatArray
-    area: float  #: nominal [m2]
+    Its calls are those of `PartRig`, places and directions with a third component: `support`,
+    `platen`, `gauge`, `way_of`, `drive`, then `press`, `load`, `strain_to`, `stress_to`, `relax`,
+    `unload`, `cycle`, `follow`. What is of the plane alone is refused. Deviation D101.
+    """
 
-
-class SolidPartRig(EndRig):
-    """A solid between plates, which hold, press and load it as a layout says."""
+    _axes = SPACE
+    _call, _of_solids = "SolidPartRig", True
 
     def __init__(
-        self, built: Model, layout: Layout, *, test: str, runner: Runner | None = None
+        self,
+        built: Model,
+        *,
+        kind: str = OWN.name,
+        runner: Runner | None = None,
+        **leaves: Unpack[Leaves],
     ) -> None:
         """Take grains that have just been built, or whose scene has been loaded.
 
         Args:
-            built: The specimen.
-            layout: Plates, and what the record refers to.
-            test: Name of the test, whose loading rate is taken.
+            built: The solid.
+            kind: Name of the test, whose loading rate is taken.
             runner: Steps, shows progress and saves checkpoints; None for one that only steps.
-        """
-        self._layout, self._test = layout, test
-        self._numbers = {name: number for number, name in enumerate(layout.plates)}
-        self._scales: Scales | None = None
-        super().__init__(built, runner=runner)
-        self._same = dict(layout.also)
-        if not self._solid.pressedAreas():  # those of a scene that is taken up are there
-            for name, plate in layout.plates.items():
-                self._lay(plate, pressed=name == layout.pressed)
-            self.built.set_masses()
-        if not self._recorder.gauges:
-            self._add_gauges()
-
-    @property
-    def kind(self) -> str:
-        """Name of the test."""
-        return self._test
-
-    @property
-    def laid(self) -> Table:
-        """Plates that bear the specimen, as plain values."""
-        plates = {
-            name: list(plate.place) if plate.side is None else plate.side
-            for name, plate in self._layout.plates.items()
-        }
-        return {"plates": plates, "width": self._width}
-
-    def scales(self) -> Scales:
-        """What the loading rate follows from: the elastic solution of the specimen before it."""
-        if self._scales is None:
-            kept = self._frame.loadingScales
-            self._scales = Scales(*kept) if kept else super().scales()
-        return self._scales
-
-    @property
-    def confinement(self) -> float | None:
-        """None: what presses on a plate is no confinement of the record."""
-        return None
-
-    def roughen(self, friction: float) -> None:
-        """Refuse friction: plates are smooth, but for a head that does not slide.
+            leaves: What the test leaves, as for `flexpm.rig`.
 
         Raises:
-            InputError: always.
+            InputError: as `PartRig`.
         """
-        raise InputError(f"roughen: friction = {friction:g}, must be left out between plates")
+        self._lines: dict[int, list[list[float]]] = {}
+        super().__init__(built, kind=kind, runner=runner, **leaves)
 
-    def confine(self, pressure: float, second: float | None = None) -> None:
-        """Press on the plate that the layout names until the forces balance.
+    def support(
+        self,
+        place: Place,
+        length: object = None,
+        *,
+        normal: Place = (0.0, 0.0, 0.0),
+        pinned: bool = False,
+        friction: float = 0.0,
+        bonded: bool = False,
+        strip: float | None = None,
+        seated: bool = False,
+    ) -> Part:
+        """Lay a plate against the part of the outside around a place.
 
         Args:
-            pressure: On its area [Pa].
-            second: Must be None.
+            place: x, y and z, on the outside [m].
+            length: Edge of the cube around the place, or edges of a box along x, y and z, in which
+                the outside lies before the plate [m]. None: a roller, which bears along a line
+                across the depth through x and z of the place, on the bottom or from above.
+            normal: x, y and z, into the specimen; zero: that of the nearest flat side.
+            pinned: It does not slide as long as it presses.
+            friction: Coefficient, of one that is not pinned [-]; no roller has one.
+            bonded: It pulls, too, and slides freely; no roller does.
+            strip: Must be None.
+            seated: Must be False.
 
         Raises:
-            InputError: for a layout without one.
-            SimulationError: if the forces do not come to balance.
+            InputError: for a place that is not on the outside, or a size out of range.
         """
-        if not self._layout.pressed or second is not None:
+        _refuse("support", strip=strip, seated=seated)
+        specimen, at = self._specimen, require_vector("support: place", place, axes=SPACE)
+        inwards = require_vector("support: normal", normal, "", SPACE)
+        if any(inwards):
+            inwards = require_direction("support: normal", inwards, SPACE)
+        if require_flag("support: pinned", pinned):
+            friction = NO_SLIDING
+        friction = require_number("support: friction", friction, NOT_NEGATIVE)
+        bonded = require_flag("support: bonded", bonded)
+        if length is None:
+            if bonded or friction not in (0.0, NO_SLIDING):
+                raise InputError(
+                    "support: length = None, must be given for one that is bonded or has friction; "
+                    "a line is a roller or pinned"
+                )
+            return self._line(at, inwards, pinned)
+        edges = edges_of(length)
+        into = np.array(inwards) if any(inwards) else inwards_at(specimen, at)
+        return self._patch("support", patch_around(specimen, at, edges, into), friction, bonded)
+
+    def platen(
+        self,
+        side: int,
+        *,
+        friction: float = 0.0,
+        bonded: bool = False,
+        strip: float | None = None,
+        seated: bool = False,
+    ) -> Part:
+        """Lay a plate along a whole flat side.
+
+        Args:
+            side: 0 bottom, 1 right, 2 top, 3 left, 4 front, 5 back.
+            friction: Coefficient [-].
+            bonded: It pulls, too. It slides freely along itself.
+            strip: Must be None.
+            seated: Must be False.
+
+        Raises:
+            InputError: for a side that is not flat, or that there is not.
+        """
+        _refuse("platen", strip=strip, seated=seated)
+        patch = side_patch(self._specimen, require_whole("platen: side", side))
+        friction = require_number("platen: friction", friction, NOT_NEGATIVE)
+        return self._patch("platen", patch, friction, require_flag("platen: bonded", bonded))
+
+    def jaw(self, *_: object, **__: object) -> NoReturn:
+        """Refuse it: of the plane alone. ``flexpm run brazilian --jaw-radius`` has it."""
+        raise _of_the_plane("jaw")
+
+    def hold(self, *_: object, **__: object) -> NoReturn:
+        """Refuse it: of the plane alone."""
+        raise _of_the_plane("hold")
+
+    def turn(self, *_: object, **__: object) -> NoReturn:
+        """Refuse it: of the plane alone."""
+        raise _of_the_plane("turn")
+
+    def fluid(self, *_: object, **__: object) -> NoReturn:
+        """Refuse it: of the plane alone. ``flexpm.rig`` presses on the sides of a solid."""
+        raise _of_the_plane("fluid")
+
+    def excavate(self, *_: object, **__: object) -> NoReturn:
+        """Refuse it: of the plane alone."""
+        raise _of_the_plane("excavate")
+
+    def elastic(self, *_: object, **__: object) -> NoReturn:
+        """Refuse it: of the plane alone. ``flexpm.elastic`` gives the constants of a solid."""
+        raise _of_the_plane("elastic")
+
+    @property
+    def machine(self) -> float:
+        """0: no machine behind what loads a solid gives way [N/m]."""
+        return 0.0
+
+    @property
+    def may_fail_at_once(self) -> bool:
+        """A test of one's own may have few contacts across."""
+        return self.kind == OWN.name
+
+    @property
+    def parts(self) -> list[Table]:
+        """All plates as plain values, by their numbers.
+
+        A place is that where the part was laid, or since when displacements count [m]; a face is
+        its trace along x and z [m].
+        """
+        names = ("normal", "area", "friction", "bonded")
+        return [
+            {
+                "part": "plate",
+                **{name: one[name] for name in names},
+                "place": [
+                    float(now - way)
+                    for now, way in zip(one["place"], one["displacement"], strict=True)
+                ],
+                "face": self._lines.get(number, []),
+            }
+            for number, one in enumerate(self._solid.plates())
+        ]
+
+    def read_mouth(self, first: float, second: float) -> None:
+        """Record how far two lines of the bottom at x move apart, across the depth, as ``cmod``.
+
+        Args:
+            first: x of the line on the left [m].
+            second: x of the one on the right [m].
+        """
+        if not self._begun:
+            self._frame.middle, self._frame.reach = 0.5 * (first + second), 0.5 * (second - first)
+
+    def _line(self, at: Vector, inwards: Vector, pinned: bool) -> Part:
+        """A roller or a head: deviation D99."""
+        given, upwards = any(inwards), inwards[2]
+        low, high = box_around(self._specimen)
+        if given and not abs(upwards) > _UPRIGHT:
             raise InputError(
-                f"confine: pressure = {pressure:g} Pa, must be left out: no plate is pressed"
+                "support: normal = one across z, must be along z without a length; give a length"
             )
-        GrainRig.confine(self, pressure)
-        self._scales = None  # of what it presses on now, also if a scene is taken up before
-
-    def _press(self, pressure: float, ramp: int) -> None:
-        plates = [self._numbers[self._layout.pressed]]
-        engine = wrapper.PressureController(plates=plates, pressure=pressure, rampSteps=ramp)
-        self.built.add_engines(before=(engine,))
-
-    def _pressing_force(self) -> float:
-        pressing = self._pressing()
-        if pressing is None:
-            return 0.0
-        return pressing.pressure * self._patch(self._layout.plates[self._layout.pressed]).area
-
-    def _new_frame(self) -> wrapper.TestFrame:
-        layout = self._layout
-        mouth = layout.openings.get("cmod")
-        first, second = (mouth.first[0], mouth.second[0]) if mouth else (0.0, 0.0)
-        return wrapper.SolidPartFrame(
-            driven=[self._numbers[name] for name in layout.driven],
-            holding=[self._numbers[name] for name in layout.against],
-            direction=_in_space(layout.direction),
-            area=layout.area,
-            length=layout.length,
-            strength=layout.strength,
-            middle=0.5 * (first + second),
-            reach=0.5 * (second - first),
+        above = upwards if given else 0.5 * (low[2] + high[2]) - at[2]
+        side = BOTTOM if above > 0.0 else TOP
+        width = _WIDTH * self._specimen.mean_diameter
+        values = (side, at[0], at[2], width, pinned)
+        face = [[at[0] + sign * 0.5 * width, at[2]] for sign in (-1.0, 1.0)]
+        return self._lay(
+            "support",
+            lambda: self._solid.findLine(*values),
+            lambda: self._solid.layLine(*values),
+            face,
         )
 
-    def _add_gauges(self) -> None:
-        """Record how far points move apart, a mouth aside, and how far plates go."""
-        middle = 0.5 * self.built.specimen.dimensions["depth"]
-        for name, one in self._layout.openings.items():
-            if name == "cmod":
-                continue
-            first, second = (_in_space(place, middle) for place in (one.first, one.second))
-            ends = self._solid.gaugePoints(first, second)
-            way = one.along or (one.second[0] - one.first[0], one.second[1] - one.first[1])
-            direction = np.array(way) / np.hypot(*way)
-            self._recorder.addGauge(
-                wrapper.Gauge(
-                    name=name, first=ends[0], second=ends[1], direction=_in_space(tuple(direction))
-                )
-            )
-        for name, (part, along) in self._layout.ways.items():
-            number = self._numbers[part]
-            gauge = wrapper.Gauge(name=name, plate=number, direction=_in_space(along))
-            self._recorder.addGauge(gauge)
+    def _patch(self, kind: str, patch: Patch, friction: float, bonded: bool) -> Part:
+        values = (patch.normal, patch.low, patch.high, friction, bonded)
+        return self._lay(
+            kind,
+            lambda: self._solid.findPatch(*values),
+            lambda: self._solid.layPatch(*values),
+            patch.trace,
+        )
 
-    def _begin_record(self) -> None:
-        super()._begin_record()
-        self._frame.loadingScales = list(astuple(self.scales()))
+    def _lay(
+        self,
+        kind: str,
+        find: Callable[[], int],
+        lay: Callable[[], int],
+        face: list[list[float]],
+    ) -> Part:
+        part = self._plate(kind, find, lay)
+        self._lines[part.number] = face
+        return part
+
+    def _soften(
+        self, moved: Sequence[RigPart], unit: tuple[float, float, float], soft: float | None
+    ) -> None:
+        _refuse("drive", machine=soft)
+
+    def _begin_pressures(self, numbers: list[int], values: list[float]) -> Span:
+        self._free(numbers)
+        return super()._begin_pressures(numbers, values)
+
+    def _press(self, pressure: float, ramp: int) -> None:
+        if self.pressed is not None:
+            self._free([self.pressed.number])
+        super()._press(pressure, ramp)
+
+    def _free(self, plates: list[int]) -> None:
+        """Let loads move plates, whose masses follow from what they touch."""
+        for plate in plates:
+            self._asked("press", partial(self._solid.freePlate, plate))
+        self.built.set_masses()
+
+    def _new_frame(self) -> wrapper.SolidPartFrame:
+        return wrapper.SolidPartFrame()
 
     def _take_hold(self) -> wrapper.LoadingController:
         frame = self._frame
-        plates = wrapper.SolidEndsController(plates=frame.driven, direction=frame.direction)
+        self._let_go(frame.driven)
+        plates = wrapper.SolidLoadingController(plates=frame.driven, direction=frame.direction)
         self.built.add_engines(before=(plates,))
         return plates
 
     def _move(self, velocity: float, factor: float) -> None:
-        super()._move(-velocity, factor)  # a rig that presses gives that of its upper end, upwards
-
-    def _loaded_area(self) -> float:
-        return self._layout.area
-
-    def _lay(self, plate: Plate, *, pressed: bool) -> None:
-        try:
-            if plate.side is None and plate.length is None:
-                side = BOTTOM if plate.normal[1] > 0.0 else TOP
-                self._solid.layLine(side, *plate.place, self._width, pinned=plate.pinned)
-                return
-            patch = self._patch(plate)
-            self._solid.layPatch(
-                tuple(patch.normal),
-                tuple(patch.low),
-                tuple(patch.high),
-                bonded=plate.bonded,
-                loaded=pressed,
-                pinned=plate.pinned,
-            )
-        except ValueError as error:
-            raise InputError(f"run: {error}") from None
-
-    def _patch(self, plate: Plate) -> _Patch:
-        """What of a box a plate lies before: a strip of a side across the depth."""
-        sizes = self.built.specimen.dimensions
-        whole = np.array([sizes["width"], sizes["depth"], sizes["height"]])
-        inwards = plate.normal if plate.side is None else _INWARDS[plate.side]
-        normal = np.array(_in_space(inwards))
-        low, high = np.zeros(3), whole.copy()
-        across = int(np.argmax(np.abs(normal)))
-        if plate.length is not None:
-            along = 2 - across
-            place = _in_space(plate.place)[along]
-            low[along] = max(low[along], place - 0.5 * plate.length)
-            high[along] = min(high[along], place + 0.5 * plate.length)
-        area = float(np.prod(np.delete(high - low, across)))
-        off = _OFF * self.built.specimen.mean_diameter
-        at = 0.0 if normal[across] > 0.0 else whole[across]
-        low[across], high[across] = at - off, at + off
-        low[1], high[1] = low[1] - off, high[1] + off  # all of the depth, whatever its round-off
-        return _Patch(normal, low, high, area)
+        loading = self._recorder.loading
+        assert isinstance(loading, wrapper.SolidLoadingController)
+        if velocity and loading.gripped and loading.velocity == 0.0:
+            loading = self._take_hold_again(loading)
+            assert isinstance(loading, wrapper.SolidLoadingController)
+        # a rig that presses gives the velocity of its upper end, upwards
+        loading.velocity, loading.velocityFactor = -velocity, factor
 
     @property
-    def _width(self) -> float:
-        return _WIDTH * self.built.specimen.mean_diameter
+    def _specimen(self) -> SolidSpecimen:
+        specimen: object = self.built.specimen
+        assert isinstance(specimen, SolidSpecimen)
+        return specimen
 
     @property
     def _frame(self) -> wrapper.SolidPartFrame:
-        frame = self._recorder.frame
+        frame = super()._frame
         assert isinstance(frame, wrapper.SolidPartFrame)
         return frame
 
 
-def _in_space(place: Place, depth: float = 0.0) -> tuple[float, float, float]:
-    """x, y and z of what is x and y of the plane."""
-    return float(place[0]), depth, float(place[1])
+def _of_the_plane(call: str) -> InputError:
+    """What says that solids do not have a call."""
+    return InputError(f"{call}: specimen = a solid, must be plane; lay supports and platens")
+
+
+def _refuse(call: str, **given: object) -> None:
+    """Refuse arguments of a call that solids do not have.
+
+    Raises:
+        InputError: for one that is given.
+    """
+    for name, value in given.items():
+        if value:
+            raise InputError(
+                f"{call}: {name} = {quoted(value)}, must be left out for a solid, which has none"
+            )

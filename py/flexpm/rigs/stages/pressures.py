@@ -72,9 +72,8 @@ class PartPressures(PartRest):
         self._require_scene("press")
         numbers = [part.number for part in parts]
         self._tell("press", plates=numbers, pressures=values)
-        thickness = self.built.specimen.thickness
         forces = [
-            max(value, self._pressure_on(part.number)) * part.width * thickness
+            max(value, self._pressure_on(part.number)) * part.area
             for part, value in zip(parts, values, strict=True)
         ]
         least = min((force for force in forces if force > 0.0), default=0.0)

@@ -18,7 +18,7 @@ from ...models.options import DAMPING
 from ...runs.loading_rate import WAITING_MODELS, Loading, Scales, Schedule
 from ...runs.runner import Span
 from ..grain_rig import SETTLING_DAMPING, GrainRig
-from ..parts import HeldNodes, Part, RigPart
+from ..parts import HeldNodes, Part, RigPart, in_words
 from ..readings import Balance
 from ..rig import AT_REST, MEASURED_A_CROSSING, NODES_AT_REST
 from ..statics.elastic_state import PartStatics
@@ -224,7 +224,8 @@ class PartStill(PartStatics, GrainRig):
             self.built.damping = float(tags[_DAMPING_TAG])
             tags[_DAMPING_TAG] = ""
             self.built.set_masses()
-        self._solver.gravity = (0.0, -self.built.gravity, 0.0)
+        if self.built.gravity > 0.0:  # solids have none
+            self._solver.gravity = (0.0, -self.built.gravity, 0.0)
 
     # What there is
 
@@ -281,8 +282,7 @@ class PartStill(PartStatics, GrainRig):
 
 def _bears(part: RigPart) -> str:
     """A part and its force, in words."""
-    x, y = part.force
-    return f"{part} bears ({x:.4g}, {y:.4g}) N"
+    return f"{part} bears {in_words(part.force, 4)} N"
 
 
 def endless(plan: Schedule) -> Schedule:

@@ -7,13 +7,13 @@
 
 namespace yade {
 
-class SolidEndsController : public LoadingController {
+class SolidLoadingController : public LoadingController {
 public:
-	~SolidEndsController() override;
+	~SolidLoadingController() override;
 	void action() override;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(SolidEndsController, LoadingController,
+	YADE_CLASS_BASE_DOC_ATTRS(SolidLoadingController, LoadingController,
 		"Moves the top of a solid, whose ends :yref:`SolidSolver.holdEnds` has taken hold of, along z, or plates that :yref:`SolidSolver.layLine` and layPatch have laid. "
 		"It starts with the velocities of the elastic solution, so that no wave runs through the specimen, from where pressures have brought it. Place it before :yref:`SolidSolver`.",
 		((Real, velocity, 0.,, "Velocity of the top at factor 1, positive away from the bottom, or of the plates along their direction [m/s, or m per step with scaled masses]."))
@@ -25,6 +25,6 @@ public:
 	);
 	// clang-format on
 };
-REGISTER_SAVED(SolidEndsController);
+REGISTER_SAVED(SolidLoadingController);
 
 } // namespace yade

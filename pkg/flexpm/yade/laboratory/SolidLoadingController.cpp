@@ -1,28 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <flexpm/yade/laboratory/SolidEndsController.hpp>
+#include <flexpm/yade/laboratory/SolidLoadingController.hpp>
 
 #include <flexpm/kernel/solid_tests/solid_drive.hpp>
-#include <flexpm/kernel/solids/solid_plates.hpp>
-#include <flexpm/kernel/solids/solid_pressure.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {
 
-YADE_PLUGIN((SolidEndsController));
+YADE_PLUGIN((SolidLoadingController));
 
-SolidEndsController::~SolidEndsController() = default;
+SolidLoadingController::~SolidLoadingController() = default;
 
-void SolidEndsController::action()
+void SolidLoadingController::action()
 {
 	auto* state = GrainSolver::ofScene(*scene)->solid();
-	if (!state) throw std::runtime_error("SolidEndsController: solver = one of the plane, must be a SolidSolver");
+	if (!state) throw std::runtime_error("SolidLoadingController: solver = one of the plane, must be a SolidSolver");
 	const Real before = drivenAt;
 	follow(velocity, seenVelocity, drivenAt);
 	if (gripped && drivenAt == before) return;
 	const auto drive = plates.empty() ? flexpm::drive_of_top(*state) : flexpm::SolidDrive { plates, { direction[0], direction[1], direction[2] } };
 	if (gripped) return flexpm::go_on(*state, drive, drivenAt, scene->dt);
 	const auto field = plates.empty() ? flexpm::elastic_field(*state) : flexpm::elastic_field(*state, drive);
-	if (flexpm::is_pressed(*state) || flexpm::has_loaded_plate(*state))
+	if (state->step > 0)
 		flexpm::take_over(*state, drive, field, drivenAt, undampedLoading, scene->dt);
 	else
 		flexpm::start(*state, drive, field, 0, drivenAt, undampedLoading, scene->dt);

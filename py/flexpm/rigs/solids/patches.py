@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where plates lie on the outside of a solid. SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import FloatArray
+from ...errors import InputError
+from ...require import POSITIVE, require_number
+from ...specimens.space.specimen import SolidSpecimen
+from ..places import SPACE, Vector, require_vector
+
+BOTTOM, RIGHT, TOP, LEFT, FRONT, BACK = range(6)
+#: Into the specimen from each side of the box around it.
+INWARDS = {
+    BOTTOM: (0.0, 0.0, 1.0),
+    RIGHT: (-1.0, 0.0, 0.0),
+    TOP: (0.0, 0.0, -1.0),
+    LEFT: (1.0, 0.0, 0.0),
+    FRONT: (0.0, 1.0, 0.0),
+    BACK: (0.0, -1.0, 0.0),
+}
+#: Sides that are flat, by the shape.
+FLAT = {
+    "box": (BOTTOM, RIGHT, TOP, LEFT, FRONT, BACK),
+    "cylinder": (BOTTOM, TOP),
+    "solid-disc": (FRONT, BACK),
+    "solid-half-disc": (BOTTOM, FRONT, BACK),
+}
+#: Axis across the section that maps draw.
+_DEPTH = 1
+#: What of a side is off its plane, at most, in mean diameters of the grains [-].
+_OFF = 0.5
+
+
+@dataclass(frozen=True)
+class Patch:
+    """A part of the outside: what lies in a box and faces a normal."""
+
+    normal: Vector  #: into the specimen, a unit vector
+    low: Vector  #: corners of the box [m]
+    high: Vector
+    trace: list[list[float]]  #: line along x and z, none if it faces y; for maps [m]
+
+
+def box_around(specimen: SolidSpecimen) -> tuple[FloatArray, FloatArray]:
+    """Corners of the box around a solid [m]."""
+    sizes = specimen.dimensions
+    if specimen.kind == "box":
+        return np.zeros(3), np.array([sizes["width"], sizes["depth"], sizes["height"]])
+    half = 0.5 * sizes["diameter"]
+    if specimen.kind == "cylinder":
+        return np.array([-half, -half, 0.0]), np.array([half, half, sizes["height"]])
+    bottom = 0.0 if specimen.kind == "solid-half-disc" else -half
+    return np.array([-half, 0.0, bottom]), np.array([half, sizes["depth"], half])
+
+
+def side_patch(specimen: SolidSpecimen, side: int) -> Patch:
+    """All of a flat side.
+
+    Raises:
+        InputError: for a side that is not flat, or that there is not.
+    """
+    flat = FLAT[specimen.kind]
+    if side not in flat:
+        raise InputError(
+            f"platen: side = {side}, must be one of {', '.join(map(str, flat))}, the flat ones of "
+            f"a {specimen.kind}; lay a support elsewhere"
+        )
+    low, high = box_around(specimen)
+    place = 0.5 * (low + high)
+    normal = np.array(INWARDS[side])
+    across = int(np.argmax(np.abs(normal)))
+    place[across] = (low if normal[across] > 0.0 else high)[across]
+    return patch_around(specimen, place, high - low, normal)
+
+
+def patch_around(
+    specimen: SolidSpecimen, place: Vector | FloatArray, edges: FloatArray, normal: FloatArray
+) -> Patch:
+    """What lies in a box around a place: at least half a mean diameter off it along the normal.
+
+    A box that comes to the end of the specimen goes beyond it, whatever the round-off.
+
+    Args:
+        specimen: The solid.
+        place: x, y and z of the middle [m].
+        edges: Lengths of the box along the axes [m].
+        normal: Into the specimen.
+    """
+    off = _OFF * specimen.mean_diameter
+    least, most = box_around(specimen)
+    low, high = place - 0.5 * edges, place + 0.5 * edges
+    across = int(np.argmax(np.abs(normal)))
+    low[across], high[across] = (
+        min(low[across], place[across] - off),
+        max(high[across], place[across] + off),
+    )
+    line = np.clip([low, high], least, most)
+    line[:, across] = place[across]
+    hair = 1e-9 * (most - least)
+    low = np.where(low <= least + hair, low - off, low)
+    high = np.where(high >= most - hair, high + off, high)
+    trace = [] if across == _DEPTH else line[:, [0, 2]].tolist()
+    return Patch(_vector(normal / np.linalg.norm(normal)), _vector(low), _vector(high), trace)
+
+
+def edges_of(length: object) -> FloatArray:
+    """Edges of a box, from one number or from three [m].
+
+    Raises:
+        InputError: for others, or one that is not above 0.
+    """
+    if isinstance(length, list | tuple | np.ndarray):
+        edges = require_vector("support: length", length, axes=SPACE)
+        return np.array([require_number("support: length", one, POSITIVE, "m") for one in edges])
+    return np.full(3, require_number("support: length", length, POSITIVE, "m"))
+
+
+def inwards_at(specimen: SolidSpecimen, place: Vector) -> FloatArray:
+    """Into the specimen from the flat side on which a place lies.
+
+    Raises:
+        InputError: for a place on none of them.
+    """
+    low, high = box_around(specimen)
+    off = {}
+    for side in FLAT[specimen.kind]:
+        normal = np.array(INWARDS[side])
+        across = int(np.argmax(np.abs(normal)))
+        at = (low if normal[across] > 0.0 else high)[across]
+        off[side] = abs(place[across] - at)
+    nearest = min(off, key=lambda side: off[side])
+    if off[nearest] > _OFF * specimen.mean_diameter:
+        raise InputError(
+            f"support: place = {place}, is {off[nearest]:.3g} m off the nearest flat side, must be "
+            "on one; or give the normal"
+        )
+    return np.array(INWARDS[nearest])
+
+
+def _vector(values: FloatArray) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Own tests of solids from parts: closed forms, pressures, friction, folders, what is refused."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import signal
+
+import numpy as np
+import pytest
+from killed_scripts import content, drawn, ended, killed, require_same, started
+
+import flexpm
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+
+# importing flexpm has told Python where YADE is
+yade = importlib.import_module("yade")
+SIZE, MATERIAL = 0.012, "augig-table7"
+#: All stages that a solid has, in a folder.
+SCRIPT = """
+import flexpm
+box = flexpm.Specimen.box(0.012, 0.012, 0.012, seed=1)
+
+rig = flexpm.SolidPartRig(flexpm.build(box, model="rigid"), out="out", checkpoint_interval=INTERVAL)
+floor, top = rig.platen(0, friction=0.5), rig.platen(2, friction=0.5)
+left, right = rig.platen(3), rig.platen(1)
+rig.press({left: 1e6, right: 1e6, top: 2e6})
+rig.gauge("wide", (0.0, 0.006, 0.006), (0.012, 0.006, 0.006))
+rig.drive(top, (0.0, 0.0, -1.0), against=floor)
+rig.stress_to(350.0)
+rig.cycle(400.0, 1, low=350.0)
+rig.dwell(3.0)
+rig.relax()
+rig.unload()
+rig.follow([0.0, 1.0, 2.0], [0.0, 200.0, 100.0], by="load")
+rig.load(flexpm.Loading(rate=RATE, kind="waiting"))
+"""
+
+
+@pytest.fixture(scope="module")
+def box():
+    return flexpm.Specimen.box(SIZE, SIZE, SIZE, seed=1)
+
+
+def rig_of(specimen, model="flexible", **leaves):
+    yade.O.reset()
+    return flexpm.SolidPartRig(flexpm.build(specimen, MATERIAL, model), **leaves)
+
+
+def imbalance(rig) -> float:
+    """What the balance of energies lacks at the end of the record [J]."""
+    names = ("kinetic", "elastic", "damage", "friction", "damping", "drag")
+    last = {name: rig.record[f"{name}_energy"][-1] for name in names}
+    return sum(last.values()) - rig.initial_energy - rig.record["boundary_work"][-1]
+
+
+def test_platens_are_in_series_with_what_is_between_them():
+    tall = flexpm.Specimen.box(SIZE, SIZE, 2.0 * SIZE, seed=1)
+    rig = rig_of(tall)
+    base, top = rig.platen(0), rig.platen(2)
+    assert top.area == pytest.approx(SIZE**2, rel=1e-9)
+    assert top.place == pytest.approx((0.5 * SIZE, 0.5 * SIZE, 2.0 * SIZE))
+    rig.way_of("way", top, (0, 0, -1))
+    rig.gauge("wide", (0.0, 0.5 * SIZE, SIZE), (SIZE, 0.5 * SIZE, SIZE))
+    rig.drive(top, (0, 0, -1), against=base, area=SIZE**2, length=2.0 * SIZE)
+    rig.strain_to(2e-4)
+    # two layers of contacts, of the grains' own stiffness per area (D20)
+    alone = flexpm.elastic(tall, MATERIAL, "flexible")["youngs_modulus"]
+    stiffness = rig.built.material.law("flexible")["normal_stiffness"]
+    series = 1.0 / (1.0 / alone + 2.0 / (stiffness * 2.0 * SIZE))
+    assert rig.stress / rig.strain == pytest.approx(series, rel=1e-3)
+    record = rig.record
+    assert record["way"][-1] == pytest.approx(record["displacement"][-1], rel=1e-9)
+    assert 0.0 < record["wide"][-1] < record["way"][-1]
+    assert top.force[2] == pytest.approx(-base.force[2], rel=1e-3)
+    assert abs(imbalance(rig)) < 1e-6 * record["elastic_energy"][-1]
+    assert rig.warnings == []
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_block_slides_at_its_friction(box, model):
+    friction, pressure = 0.3, 2e6
+    rig = rig_of(box, model)
+    base, top, side = rig.platen(0, friction=friction), rig.platen(2), rig.platen(3)
+    rig.press(top, pressure)
+    load = pressure * SIZE**2
+    assert -top.force[2] == pytest.approx(load, rel=1e-3)
+    assert base.force[2] == pytest.approx(load, rel=1e-3)
+    rig.drive(side, (1, 0, 0), against=base)
+    rig.strain_to(3e-6)
+    assert rig.stress == pytest.approx(friction * load, rel=1e-3)
+    assert -base.force[0] == pytest.approx(friction * load, rel=1e-3)
+    way = rig.record["displacement"]
+    slid = rig.record["friction_energy"][-1] / (friction * load)
+    assert 0.8 * way[-1] < slid < way[-1]  # the rest is elastic
+    assert abs(imbalance(rig)) < 5e-4 * rig.record["friction_energy"][-1]
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_pressures_from_three_sides_stand_together(box, model):
+    rig = rig_of(box, model)
+    for side in (0, 3, 4):
+        rig.platen(side)
+    tops = {rig.platen(2): 6e6, rig.platen(1): 2e6, rig.platen(5): 3e6}
+    rig.press(tops)
+    for part, pressure in tops.items():
+        assert np.dot(part.force, part.normal) == pytest.approx(pressure * SIZE**2, rel=1e-3)
+    # one of them is driven on, the others press as before
+    driven = next(iter(tops))
+    rig.drive(driven, (0, 0, -1), area=SIZE**2)
+    rig.stress_to(8e6)
+    assert rig.stress == pytest.approx(8e6, rel=0.02)
+    for part, pressure in list(tops.items())[1:]:
+        assert np.dot(part.force, part.normal) == pytest.approx(pressure * SIZE**2, rel=0.02)
+
+
+def test_it_goes_back_and_on_without_a_wave(box):
+    rig = rig_of(box)
+    base, top = rig.platen(0), rig.platen(2)
+    rig.drive(top, (0, 0, -1), against=base, area=SIZE**2, length=SIZE)
+    rig.strain_to(2e-4)
+    high, modulus = rig.stress, rig.stress / rig.strain
+    rig.relax()
+    rows = len(rig.record)
+    rig.strain_to(1e-4)
+    assert rig.stress / rig.strain == pytest.approx(modulus, rel=1e-3)
+    assert rig.record["end_mismatch"][rows:].max() < 2e-3
+    rig.unload()
+    assert abs(rig.stress) < 1e-3 * high
+
+
+def test_a_roller_is_a_line_across_the_depth():
+    beam = flexpm.Specimen.box(0.036, 0.008, 0.008, seed=1)
+    rig = rig_of(beam, "rigid")
+    rollers = [rig.support((x, 0.004, 0.0)) for x in (0.004, 0.032)]
+    head = rig.support((0.018, 0.004, 0.008), pinned=True)
+    assert rig.parts[2]["place"] == [0.018, 0.0, 0.008]
+    rig.drive(head, (0, 0, -1), against=rollers)
+    rig.strain_to(2e-6)
+    left, right = (one.force[2] for one in rollers)
+    assert left == pytest.approx(right, rel=0.1)
+    assert left + right == pytest.approx(-head.force[2], rel=0.01)
+
+
+def test_a_support_has_the_area_of_its_box(box):
+    rig = rig_of(box)
+    half = rig.support((0.5 * SIZE, 0.5 * SIZE, 0.0), (0.5 * SIZE, SIZE, SIZE), bonded=True)
+    assert half.area == pytest.approx(0.5 * SIZE**2, rel=1e-9)
+    small = rig.support((SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.25 * SIZE)
+    assert small.area == pytest.approx((0.25 * SIZE) ** 2, rel=1e-9)
+    assert small.normal == (-1.0, 0.0, 0.0)
+    core = flexpm.Specimen.cylinder(SIZE, SIZE, seed=1)
+    rig = rig_of(core)
+    mantle = rig.support((0.5 * SIZE, 0.0, 0.5 * SIZE), 0.25 * SIZE, normal=(-1, 0, 0))
+    assert mantle.area == pytest.approx((0.25 * SIZE) ** 2, rel=0.05)
+
+
+def test_what_is_wrong_is_refused(box):
+    rig = rig_of(box)
+    base, top = rig.platen(0), rig.platen(2)
+    refused = [
+        (lambda: rig.platen(6), "side = 6, must be one of 0, 1, 2, 3, 4, 5"),
+        (lambda: rig.platen(1, seated=True), "seated = True, must be left out for a solid"),
+        (lambda: rig.platen(1, bonded=True, friction=0.2), "must be 0 of one that is bonded"),
+        (lambda: rig.support((0.0, 0.0)), "place = \\(0.0, 0.0\\), must be x, y and z"),
+        (lambda: rig.support((0.006, 0.006, 0.006), 0.003), "off the nearest flat side"),
+        (lambda: rig.support((0.006, 0.006, 0.0), -1.0), "length = -1.0 m, must be > 0"),
+        (lambda: rig.support((0.006, 0.006, 0.0), bonded=True), "length = None, must be given"),
+        (lambda: rig.support((0.0, 0.006, 0.006), normal=(1, 0, 0)), "must be along z"),
+        (lambda: rig.support((0.0, 0.006, 0.009)), "triangles at x = 0 m, z = 0.009 m = 0"),
+        (lambda: rig.hold(), "hold: specimen = a solid, must be plane"),
+        (lambda: rig.drive(top, (0, -1)), "must be x, y and z"),
+        (lambda: rig.drive(top, (0, 0, -1), machine=1e8), "machine = 100000000.0, must be left out"),
+        (lambda: rig.drive(top, (0, 0, 1), against=base) or rig.load(), "pulls without bond"),
+        (lambda: top.width, "has none in space"),
+        (lambda: flexpm.PartRig(rig.built), "must be plane; flexpm.SolidPartRig"),
+    ]
+    for call, told in refused:
+        with pytest.raises(InputError, match=told):
+            call()
+    yade.O.reset()
+    flat = flexpm.build(flexpm.Specimen.rectangle(SIZE, SIZE, 0.01, seed=1))
+    with pytest.raises(InputError, match="must be a solid; flexpm.PartRig"):
+        flexpm.SolidPartRig(flat)
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The folder of the script that nobody has killed."""
+    folder = tmp_path_factory.mktemp("whole")
+    assert ended(started(folder, SCRIPT)) == (0, "")
+    return folder / "out"
+
+
+@pytest.mark.long
+def test_a_killed_test_goes_on_to_the_same_bits(whole, tmp_path):
+    kills = [signal.SIGKILL, signal.SIGTERM]
+    first = content(whole)["inputs"]["stages"][0]["last_step"]
+    moments = [drawn(3, kills, first), drawn(4, kills, content(whole)["steps"])]
+    for number, ends in enumerate(killed(tmp_path, SCRIPT, moments)):
+        assert ends == [*kills, 0]
+        require_same(tmp_path / str(number), whole)
+
+
+def test_it_is_made_again_to_the_same_bits(whole, tmp_path):
+    inputs = content(whole)["inputs"]
+    assert inputs["repeatable"]
+    assert [part["part"] for part in inputs["parts"]] == ["plate"] * 4
+    page = (whole / "report.html").read_text()
+    assert "Parts" in page
+    again = tmp_path / "again"
+    assert cli.main(["rerun", str(whole), "--out", str(again), "--no-report"]) == 0
+    require_same(again, whole)
+    assert json.loads((again / "result.json").read_text())["inputs"]["calls"] == inputs["calls"]
