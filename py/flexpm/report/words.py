@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..kinds.registry import OWN, kind_of
 from ..kinds.words import Drawn, Shown, Words, strain, stress
+from ..specimens.space.any_spec import is_solid
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -29,7 +30,8 @@ def words_of_result(result: Result) -> Words:
     drive = result.inputs.get("drive")
     if not drive:  # between two ends, or before it is loaded
         return Words()
-    turns = drive["direction"][2] != 0.0
+    # z is the axis of a turn in the plane, a direction in space
+    turns = drive["direction"][2] != 0.0 and not is_solid(result.inputs["specimen"]["kind"])
     way = ("angle", 1e3, "mrad") if turns else ("displacement", 1e6, "µm")
     load = ("moment", 1.0, "N m") if turns else ("load", 1.0, "N")
     # a size of 1 was not given: the strain is the way then, the stress the load

@@ -26,7 +26,7 @@ from ..require import (
 )
 from ..specimens.kernel_input import Circle
 from .parts import HeldNodes, Part, RigPart
-from .places import PLANE, Place, Where, in_region, require_vector
+from .places import PLANE, SPACE, Place, Where, in_region, require_vector
 
 #: Length of a support unless told otherwise, in mean diameters of the grains [-]: a plate does not
 #: turn with a beam, which would rest on the inner end of a long one.
@@ -216,8 +216,9 @@ class PartLayout:
         *,
         box: tuple[Place, Place] | None = None,
         disc: tuple[Place, float] | None = None,
+        ball: tuple[Place, float] | None = None,
         where: Where | None = None,
-        axes: str = "xy",
+        axes: str | None = None,
     ) -> HeldNodes:
         """Hold the nodes of a region at rest; `drive`, `turn` or `HeldNodes.move` moves them.
 
@@ -226,20 +227,25 @@ class PartLayout:
         bonded. The region is one of:
 
         Args:
-            box: Two opposite corners, x and y of each [m]; what lies on its edges is in.
-            disc: x and y of the centre, and the radius [m].
-            where: Function of the places' x and y, arrays [m], that says which ones are in.
-            axes: ``"x"``, ``"y"`` or ``"xy"``: what is held.
+            box: Two opposite corners [m]; what lies on its edges is in.
+            disc: x and y of the centre, and the radius, in the plane [m].
+            ball: x, y and z of the centre, and the radius, in space [m].
+            where: Function of the places' x and y, and z in space, arrays [m], that says which ones
+                are in.
+            axes: Those along which they are held, as ``"x"`` or ``"xy"``; None: all.
 
         Raises:
             InputError: for a region without nodes, or with nodes that another part has.
         """
-        if not (isinstance(axes, str) and axes in ("x", "y", "xy")):
-            raise InputError(f"hold: axes = {quoted(axes)}, must be x, y or xy")
+        axes = _require_axes(axes, self._axes)
+        if (disc if self._axes == SPACE else ball) is not None:
+            name, other = ("disc", "ball") if self._axes == SPACE else ("ball", "disc")
+            raise InputError(f"hold: {name} = given, must be left out here; give a {other}")
         self._require_scene("hold")
         solver = self.built.solver
         nodes, places = solver.nodePlaces(bonded=True)
-        chosen = nodes[in_region(places, box, disc, where)].tolist()
+        round_one = ball if disc is None else disc
+        chosen = nodes[in_region(places, box, round_one, where, self._axes)].tolist()
         if found := self._found[HeldNodes]:
             sets = solver.nodeSets()
             alike = [
@@ -248,7 +254,7 @@ class PartLayout:
             number = self._take(HeldNodes, "hold", alike[0] if alike else -1)
         else:
             number = self._asked(
-                "hold", lambda: solver.addNodeSet(chosen, "x" in axes, "y" in axes)
+                "hold", lambda: solver.addNodeSet(chosen, *(axis in axes for axis in self._axes))
             )
         return HeldNodes(self, solver, "held nodes", number)
 
@@ -296,7 +302,7 @@ class PartLayout:
                 "part": "plate",
                 **{name: one[name] for name in ("normal", "width", "friction", "bonded")},
                 **{name: one[name] for name in _EXTRA if one[name]},
-                "place": _before(one),
+                "place": before(one),
                 "face": _face_of(one),
             }
             for one in solver.plates()
@@ -307,7 +313,7 @@ class PartLayout:
                 "part": "held nodes",
                 "nodes": [int(node) for node in one["nodes"]],
                 "axes": one["axes"],
-                "place": _before(one),
+                "place": before(one),
                 "face": _box_around(places[np.isin(numbers, one["nodes"])]),
             }
             for one in solver.nodeSets()
@@ -328,6 +334,15 @@ class PartLayout:
             )
 
 
+def _require_axes(axes: object, there: str) -> str:
+    """Axes that are held, in their order, or raise InputError; None: all that there are."""
+    if axes is None:
+        return there
+    if isinstance(axes, str) and axes and axes == "".join(one for one in there if one in axes):
+        return axes
+    raise InputError(f"hold: axes = {quoted(axes)}, must be some of {there}, in this order")
+
+
 def _strip(label: str, strip: float | None) -> float:
     """Stiffness per area of a soft layer [Pa/m]; 0: there is none."""
     return 0.0 if strip is None else require_number(f"{label}: strip", strip, POSITIVE, "Pa/m")
@@ -340,7 +355,7 @@ def _face_of(plate: Table) -> list[list[float]]:
     at = half * np.linspace(-1.0, 1.0, 25 if radius else 2)
     rise = radius - np.sqrt(np.maximum(radius**2 - at**2, 0.0))
     # an arc is laid with its middle on the rim, beyond the mean of the points that face it
-    middle = _before(plate) if radius else plate["middle"]
+    middle = before(plate) if radius else plate["middle"]
     line: list[list[float]] = (middle + at[:, None] * along + rise[:, None] * inwards).tolist()
     return line
 
@@ -353,7 +368,7 @@ def _box_around(places: FloatArray) -> list[list[float]]:
     return [[left, low], [right, low], [right, high], [left, high], [left, low]]
 
 
-def _before(part: Table) -> list[float]:
+def before(part: Table) -> list[float]:
     """Where a part was before it was displaced [m]."""
     found: list[float] = np.subtract(part["place"], part["displacement"]).tolist()
     return found

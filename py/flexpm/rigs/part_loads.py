@@ -14,7 +14,7 @@ from ..files import Table
 from ..require import NOT_NEGATIVE, POSITIVE, require_number
 from .layout import PartLayout
 from .parts import HeldNodes, Part, RigPart, in_words, numbers, require_apart, require_parts
-from .places import Place, require_direction, require_vector
+from .places import SPACE, Place, require_direction, require_vector
 
 #: Cosines of directions that differ by less than this from 1 are along each other [-].
 _ALONG = 1e-6
@@ -247,7 +247,7 @@ def _require_soft(
 
 def _require_along(part: HeldNodes, direction: tuple[float, float, float]) -> None:
     """Refuse nodes that are free along a part of the way on which they are to be driven."""
-    for axis, way in zip("xy", direction[:2], strict=True):
+    for axis, way in zip(SPACE, direction, strict=True):  # z of the plane is 0
         if way != 0.0 and axis not in part.axes:
             raise InputError(
                 f"drive: part = {part}, held along {part.axes} alone, must be held along {axis}; "

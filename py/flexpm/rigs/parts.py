@@ -12,7 +12,7 @@ from yade import wrapper
 from ..errors import InputError
 from ..files import Table
 from ..require import quoted, require_number
-from .places import Place, require_pair
+from .places import PLANE, SPACE, Place, require_vector
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,13 +113,21 @@ class HeldNodes(RigPart):
 
     @property
     def moment(self) -> float:
-        """On the specimen about `place`, counter-clockwise [N m]."""
-        return float(self._now["moment"])
+        """On the specimen about `place`, counter-clockwise, in the plane [N m].
+
+        Raises:
+            InputError: in space, where sets do not turn.
+        """
+        return self._of_the_plane("moment")
 
     @property
     def angle(self) -> float:
-        """Since they were held, counter-clockwise [rad]."""
-        return float(self._now["angle"])
+        """Since they were held, counter-clockwise, in the plane [rad].
+
+        Raises:
+            InputError: in space, where sets do not turn.
+        """
+        return self._of_the_plane("angle")
 
     @property
     def nodes(self) -> list[int]:
@@ -128,24 +136,38 @@ class HeldNodes(RigPart):
 
     @property
     def axes(self) -> str:
-        """Along which they are held: ``x``, ``y`` or ``xy``."""
+        """Along which they are held: ``x``, ``y``, ``z`` or several, as ``xy``."""
         return str(self._now["axes"])
 
-    def move(self, velocity: Place = (0.0, 0.0), spin: float = 0.0) -> None:
+    @property
+    def _is_in_space(self) -> bool:
+        return len(self._now["place"]) == len(SPACE)
+
+    def _of_the_plane(self, name: str) -> float:
+        if self._is_in_space:
+            raise InputError(f"part: {name} of {self}, has none in space, where sets do not turn")
+        return float(self._now[name])
+
+    def move(self, velocity: Place | None = None, spin: float = 0.0) -> None:
         """Move them from the next step on, whatever the rig's loading does.
 
         Args:
-            velocity: x and y, of what is held alone [m/s, or m per step with scaled masses].
-            spin: About `place`, counter-clockwise [rad/s, or rad per step].
+            velocity: x, y and in space z, of what is held alone [m/s, or m per step with scaled
+                masses]; None: none.
+            spin: About `place`, counter-clockwise, in the plane [rad/s, or rad per step].
 
         Raises:
             InputError: for a velocity along an axis that is not held, or one of nodes that turn
                 freely.
         """
-        x, y = require_pair("move: velocity", velocity, "m/s")
+        axes = SPACE if self._is_in_space else PLANE
+        given = (0.0,) * len(axes) if velocity is None else velocity
+        x, y, z = require_vector("move: velocity", given, "m/s", axes)
         spin = require_number("move: spin", spin, unit="rad/s")
+        if self._is_in_space and spin != 0.0:
+            raise InputError(f"move: spin = {spin:g} rad/s, must be 0 in space")
         try:
-            self.solver.moveNodeSet(self.number, (x, y, spin))
+            self.solver.moveNodeSet(self.number, (x, y, z if self._is_in_space else spin))
         except ValueError as error:
             raise InputError(f"move: {error}") from None
 

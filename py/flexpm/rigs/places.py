@@ -19,16 +19,10 @@ from ..require import POSITIVE, quoted, require_number, require_text
 Place = Sequence[float]
 #: Axes of the plane, and of space.
 PLANE, SPACE = "xy", "xyz"
-#: Tells of places, by arrays of their x and y [m], which of them a region has.
-Where = Callable[[FloatArray, FloatArray], BoolArray]
+#: Tells of places, by arrays of x, y and in space z [m], which of them a region has.
+Where = Callable[..., BoolArray]
 #: x, y and z, 0 in the plane, as YADE has vectors.
 Vector = tuple[float, float, float]
-
-
-def require_pair(label: str, value: object, unit: str = "m") -> tuple[float, float]:
-    """Return x and y as finite numbers, or raise InputError."""
-    x, y, _ = require_vector(label, value, unit)
-    return x, y
 
 
 def require_vector(label: str, value: object, unit: str = "m", axes: str = PLANE) -> Vector:
@@ -73,26 +67,38 @@ def require_column(label: str, name: object, taken: Sequence[str]) -> str:
 def in_region(
     places: FloatArray,
     box: tuple[Place, Place] | None,
-    disc: tuple[Place, float] | None,
+    ball: tuple[Place, float] | None,
     where: Where | None,
+    axes: str = PLANE,
 ) -> BoolArray:
-    """Which of the places, (n, 2), lie in the one region that is given."""
-    if sum(region is not None for region in (box, disc, where)) != 1:
-        raise InputError("hold: region = none or several, must be one of box, disc and where")
+    """Which of the places, (n, 2) or (n, 3), lie in the one region that is given.
+
+    Args:
+        places: Those of nodes [m].
+        box: Two opposite corners.
+        ball: Centre and radius of a ball, or of a disc in the plane.
+        where: Function of arrays of their components.
+        axes: ``PLANE`` or ``SPACE``.
+    """
+    word, dimension = ("ball" if axes == SPACE else "disc"), len(axes)
+    if sum(region is not None for region in (box, ball, where)) != 1:
+        raise InputError(f"hold: region = none or several, must be one of box, {word} and where")
     if box is not None:
         ends = _several(f"hold: box = {quoted(box)}, must be two opposite corners", box)
-        corners = np.array([require_pair("hold: corner of the box", one) for one in ends])
+        label = "hold: corner of the box"
+        corners = np.array([require_vector(label, one, axes=axes)[:dimension] for one in ends])
         low, high = corners.min(axis=0), corners.max(axis=0)
         found: BoolArray = np.all((places >= low) & (places <= high), axis=1)
-    elif disc is not None:
-        both = _several(f"hold: disc = {quoted(disc)}, must be a centre and a radius", disc)
-        centre, radius = both[0], require_number("hold: radius of the disc", both[1], POSITIVE, "m")
-        middle = np.array(require_pair("hold: centre of the disc", centre))
-        found = np.hypot(*(places - middle).T) <= radius
+    elif ball is not None:
+        both = _several(f"hold: {word} = {quoted(ball)}, must be a centre and a radius", ball)
+        radius = require_number(f"hold: radius of the {word}", both[1], POSITIVE, "m")
+        middle = require_vector(f"hold: centre of the {word}", both[0], axes=axes)[:dimension]
+        found = np.linalg.norm(places - np.array(middle), axis=1) <= radius
     else:
         if not callable(where):
-            raise InputError(f"hold: where = {quoted(where)}, must be a function of x and y")
-        found = np.asarray(where(places[:, 0], places[:, 1]))
+            words = f"{', '.join(axes[:-1])} and {axes[-1]}"
+            raise InputError(f"hold: where = {quoted(where)}, must be a function of {words}")
+        found = np.asarray(where(*places.T))
         if found.shape != places.shape[:1] or found.dtype != bool:
             raise InputError("hold: where = another array, must be one truth for each place")
     return found

@@ -184,7 +184,7 @@ TEST_CASE("A plate that no load moves takes none", "[solids]")
     CHECK_THROWS_WITH(press(s, 9, 1e6), Catch::Contains("plate = 9, must be the number"));
     CHECK_THROWS_WITH(press(s, 5, -1.0), Catch::Contains("pressure on a plate = -1 Pa"));
     CHECK_THROWS_WITH(
-        solid_part_frame(s, { {}, {}, right, 1.0, 1.0 }), Catch::Contains("driven plates = 0"));
+        solid_part_frame(s, { {}, {}, right, 1.0, 1.0 }), Catch::Contains("driven parts = 0"));
     CHECK_THROWS_WITH(plate_way(s, 9, up), Catch::Contains("plate of a gauge = 9"));
     const Vector middle = 0.5 * p.solid.high;
     const GaugePoints gauge = gauge_points(s, middle - 0.5 * a * up, middle + 0.5 * a * up);

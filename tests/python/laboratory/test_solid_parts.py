@@ -26,6 +26,7 @@ box = flexpm.Specimen.box(0.012, 0.012, 0.012, seed=1)
 rig = flexpm.SolidPartRig(flexpm.build(box, model="rigid"), out="out", checkpoint_interval=INTERVAL)
 floor, top = rig.platen(0, friction=0.5), rig.platen(2, friction=0.5)
 left, right = rig.platen(3), rig.platen(1)
+pin = rig.hold(ball=((0.006, 0.006, 0.006), 0.002), axes="y")
 rig.press({left: 1e6, right: 1e6, top: 2e6})
 rig.gauge("wide", (0.0, 0.006, 0.006), (0.012, 0.006, 0.006))
 rig.drive(top, (0.0, 0.0, -1.0), against=floor)
@@ -170,9 +171,13 @@ def test_what_is_wrong_is_refused(box):
         (lambda: rig.support((0.006, 0.006, 0.0), bonded=True), "length = None, must be given"),
         (lambda: rig.support((0.0, 0.006, 0.006), normal=(1, 0, 0)), "must be along z"),
         (lambda: rig.support((0.0, 0.006, 0.009)), "triangles at x = 0 m, z = 0.009 m = 0"),
-        (lambda: rig.hold(), "hold: specimen = a solid, must be plane"),
+        (lambda: rig.hold(), "region = none or several, must be one of box, ball and where"),
+        (lambda: rig.turn([]), "turn: specimen = a solid, must be plane"),
         (lambda: rig.drive(top, (0, -1)), "must be x, y and z"),
-        (lambda: rig.drive(top, (0, 0, -1), machine=1e8), "machine = 100000000.0, must be left out"),
+        (
+            lambda: rig.drive(top, (0, 0, -1), machine=1e8),
+            "machine = 100000000.0, must be left out",
+        ),
         (lambda: rig.drive(top, (0, 0, 1), against=base) or rig.load(), "pulls without bond"),
         (lambda: top.width, "has none in space"),
         (lambda: flexpm.PartRig(rig.built), "must be plane; flexpm.SolidPartRig"),
@@ -207,10 +212,56 @@ def test_a_killed_test_goes_on_to_the_same_bits(whole, tmp_path):
 def test_it_is_made_again_to_the_same_bits(whole, tmp_path):
     inputs = content(whole)["inputs"]
     assert inputs["repeatable"]
-    assert [part["part"] for part in inputs["parts"]] == ["plate"] * 4
+    assert [part["part"] for part in inputs["parts"]] == [*["plate"] * 4, "held nodes"]
+    assert content(whole)["peak_load"] > 400.0
     page = (whole / "report.html").read_text()
     assert "Parts" in page
+    assert "moment" not in page  # z is a direction, no turn
     again = tmp_path / "again"
     assert cli.main(["rerun", str(whole), "--out", str(again), "--no-report"]) == 0
     require_same(again, whole)
     assert json.loads((again / "result.json").read_text())["inputs"]["calls"] == inputs["calls"]
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_held_nodes_bear_what_they_pull(model):
+    tall = flexpm.Specimen.box(SIZE, SIZE, 2.0 * SIZE, seed=1)
+    rig = rig_of(tall, model)
+    low = rig.hold(box=((0, 0, 0), (SIZE, SIZE, 0.2 * SIZE)))
+    high = rig.hold(where=lambda _x, _y, z: z > 1.8 * SIZE, axes="xyz")
+    rig.way_of("way", high, (0, 0, 1))
+    rig.drive(high, (0, 0, 1), against=low)
+    rig.load(flexpm.Loading(kind="waiting"))
+    record = rig.record
+    peak = int(np.argmax(record["load"]))
+    assert 0 < peak < len(record) - 1
+    assert record["end_mismatch"][: peak + 1].max() < 0.05
+    assert record["way"] == pytest.approx(record["displacement"], rel=1e-9, abs=1e-15)
+    assert high.force[2] == pytest.approx(-low.force[2], abs=0.05 * record["load"].max())
+    load, way = record["load"], record["displacement"]
+    work = 0.5 * np.sum((load[1:] + load[:-1]) * np.diff(way)) + 0.5 * load[0] * way[0]
+    assert high.work == pytest.approx(work, rel=0.03)
+    # what the elastic start gives of motion is the rest
+    assert record["boundary_work"][-1] - high.work == pytest.approx(rig.motion_energy, abs=1e-12)
+    assert low.axes == "xyz"
+    with pytest.raises(InputError, match="has none in space"):
+        _ = low.moment
+    with pytest.raises(InputError, match="spin = 1 rad/s, must be 0 in space"):
+        low.move(spin=1.0)
+
+
+def test_a_moved_set_takes_the_specimen_along(box):
+    rig = rig_of(box)
+    held = rig.hold(ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.3 * SIZE), axes="z")
+    held.move((0.0, 0.0, 1e-9))
+    for _ in range(50):
+        yade.O.step()
+    assert held.displacement == pytest.approx((0.0, 0.0, 5e-8), rel=1e-9)
+    with pytest.raises(InputError, match="axis 0 = 1 m/s, must be 0"):
+        held.move((1.0, 0.0, 0.0))
+    with pytest.raises(InputError, match="axes = 'yx', must be some of xyz"):
+        rig.hold(box=((0, 0, 0), (1e-3, 1e-3, 1e-3)), axes="yx")
+    with pytest.raises(InputError, match="disc = given, must be left out here; give a ball"):
+        rig.hold(disc=((0.0, 0.0), 1.0))
+    with pytest.raises(InputError, match="is held already"):
+        rig.hold(ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.3 * SIZE))

@@ -2,6 +2,7 @@
 #include <flexpm/kernel/solid_tests/solid_beam.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solid_tests/solid_sets.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_plan.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
@@ -114,7 +115,9 @@ Plate plate_along(const SolidState& s, SolidSide side, const BearingLine& line)
 
 int add_line_plate(SolidState& s, SolidSide side, const BearingLine& line)
 {
-    return add_plate(s, plate_along(s, side, line));
+    const Plate plate = plate_along(s, side, line);
+    require_apart(s, plate);
+    return add_plate(s, plate);
 }
 
 int find_line_plate(const SolidState& s, SolidSide side, const BearingLine& line)

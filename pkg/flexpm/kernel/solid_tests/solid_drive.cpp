@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/motion/loaded_plate.hpp>
+#include <flexpm/kernel/solid_tests/solid_sets.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
@@ -21,7 +22,9 @@ void set_velocity(SolidState& s, const SolidDrive& drive, double velocity)
         let_go(s.plates[plate]);
         s.plates[plate].velocity = velocity * drive.direction;
     }
-    if (drive.plates.empty()) prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
+    for (int set : drive.sets)
+        set_velocity_of(s, set, velocity * drive.direction);
+    if (drive.moves_top()) prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
 }
 
 /// Let damping act on all motion.
@@ -30,23 +33,6 @@ void forget_loading(SolidState& s)
     std::fill(s.loading.grains.velocity.begin(), s.loading.grains.velocity.end(), 0.0);
     std::fill(s.loading.grains.spin.begin(), s.loading.grains.spin.end(), 0.0);
     s.loading.plates.clear();
-}
-
-/// What held nodes do in the half step that begins.
-void update_prescribed_work(SolidState& s, double dt)
-{
-    const Grains& grains = s.grains;
-    for (int g = 0; g < grains.count; ++g) {
-        if (grains.is_rigid(g)) continue;
-        double work = 0.0;
-        for (int n = 0; n < grains.nodes_of(g); ++n) {
-            for (int axis = 0; axis < grains.layout.dimension; ++axis) {
-                const int i = grains.component(grains.node(g, n), axis);
-                if (grains.prescribed[i]) work -= 0.5 * dt * grains.force[i] * grains.velocity[i];
-            }
-        }
-        s.ledger.prescribed_work[2 * grains.block_of(g) + 1] = work;
-    }
 }
 
 /// Bring what moves with the loading to `ratio` times that motion.
@@ -97,11 +83,14 @@ void start(SolidState& s, const SolidDrive& drive, const SolidField& field, doub
         plate.displacement = {};
         if (plate.loaded) plate.displacement = part * field.plates[i] * plate.normal;
     }
+    const Vector way = part * drive.length * drive.direction;
     for (int plate : drive.plates)
-        s.plates[plate].displacement = part * drive.length * drive.direction;
+        s.plates[plate].displacement = way;
+    for (int set : drive.sets)
+        s.node_sets[set].displacement = way;
     set_velocity(s, drive, velocity);
     begin_from(s, field, part, velocity / drive.length);
-    update_prescribed_work(s, dt);
+    promise_work(s, dt);
     if (!undamped) forget_loading(s);
 }
 
@@ -112,7 +101,7 @@ void take_over(SolidState& s, const SolidDrive& drive, const SolidField& field, 
     const double before = kinetic_of_velocities(s);
     set_velocity(s, drive, velocity);
     add_motion(s, field, velocity / drive.length);
-    update_prescribed_work(s, dt);
+    promise_work(s, dt);
     s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
     if (!undamped) forget_loading(s);
 }
@@ -123,7 +112,7 @@ void go_on(SolidState& s, const SolidDrive& drive, double velocity, double dt)
     const double old = velocity_of(s, drive);
     if (velocity == old) return;
     set_velocity(s, drive, velocity);
-    update_prescribed_work(s, dt);
+    promise_work(s, dt);
     if (old == 0.0) return;
     const double before = kinetic_of_velocities(s);
     change_loading(s, velocity / old);
@@ -133,6 +122,7 @@ void go_on(SolidState& s, const SolidDrive& drive, double velocity, double dt)
 double velocity_of(const SolidState& s, const SolidDrive& drive)
 {
     if (!drive.plates.empty()) return dot(s.plates[drive.plates.front()].velocity, drive.direction);
+    if (!drive.sets.empty()) return dot(s.node_sets[drive.sets.front()].velocity, drive.direction);
     return s.grains.velocity[s.grains.component(side_nodes(s, SolidSide::top).front(), axial)];
 }
 

@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solid_tests/solid_drive.hpp>
+#include <flexpm/kernel/solid_tests/solid_sets.hpp>
 #include <flexpm/kernel/solid_tests/solid_softening.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
@@ -22,7 +23,9 @@ namespace {
 constexpr double facing = 0.5;
 /// Share of a triangle that is none, and gap over the size of the box that is none: round-off [-].
 constexpr double no_share = 1e-12, no_gap = 1e-9;
-constexpr double small_strain = 1e-7;  ///< at which all is linear, but no round-off
+/// Strain at which all is linear, but no round-off, and such a part of the way to the first
+/// softening, where the length of a test is none of the specimen's [-].
+constexpr double small_strain = 1e-7, small_part = 0.1;
 /// Strength of a test over the stress at which its first point softens, as of the plane [-].
 constexpr double strength_over_softening = 2.0;
 
@@ -90,7 +93,14 @@ void check(const SolidState& s, const PartGeometry& parts)
 {
     check_positive("area of a test's load", parts.area, "m^2");
     check_positive("length of a test's displacement", parts.length, "m");
-    if (parts.driven.empty()) refuse("driven plates", 0.0, "", "must be at least 1");
+    if (parts.driven.empty() && parts.driven_sets.empty())
+        refuse("driven parts", 0.0, "", "must be at least 1");
+    for (const auto& sets : { parts.driven_sets, parts.holding_sets }) {
+        for (int n : sets) {
+            if (n >= 0 && n < static_cast<int>(s.node_sets.size())) continue;
+            refuse("part", n, "", "must be the number of a node set; add one first");
+        }
+    }
     for (const auto& plates : { parts.driven, parts.holding }) {
         for (int p : plates) {
             if (p >= 0 && p < static_cast<int>(s.plates.size())) continue;
@@ -99,19 +109,30 @@ void check(const SolidState& s, const PartGeometry& parts)
     }
 }
 
-double push(const SolidState& s, const std::vector<int>& plates, Vector direction)
+double push(const SolidState& s, const std::vector<int>& plates, const std::vector<int>& sets,
+    Vector direction)
 {
     double sum = 0.0;
     for (int p : plates)
         sum += dot(s.plates[p].force, direction);
+    for (int n : sets)
+        sum += dot(s.node_sets[n].force, direction);
     return sum;
+}
+
+/// Way of what is driven first.
+Vector way_of(const SolidState& s, const PartGeometry& parts)
+{
+    if (!parts.driven.empty()) return s.plates[parts.driven.front()].displacement;
+    return s.node_sets[parts.driven_sets.front()].displacement;
 }
 
 /// Forces along the loading: of the holding plates and of the driven ones.
 EndForces ends_of(const SolidState& s, const PartGeometry& parts)
 {
-    const double top = push(s, parts.driven, parts.direction);
-    return { parts.holding.empty() ? -top : push(s, parts.holding, parts.direction), top };
+    const double top = push(s, parts.driven, parts.driven_sets, parts.direction);
+    if (parts.holding.empty() && parts.holding_sets.empty()) return { -top, top };
+    return { push(s, parts.holding, parts.holding_sets, parts.direction), top };
 }
 
 }  // namespace
@@ -163,7 +184,9 @@ Plate plate_before(const SolidState& s, const SolidPatch& patch)
 
 int add_patch_plate(SolidState& s, const SolidPatch& patch)
 {
-    return add_plate(s, plate_before(s, patch));
+    const Plate plate = plate_before(s, patch);
+    require_apart(s, plate);
+    return add_plate(s, plate);
 }
 
 int find_patch_plate(const SolidState& s, const SolidPatch& patch)
@@ -180,33 +203,34 @@ SolidFrame solid_part_frame(const SolidState& s, const PartGeometry& parts)
     frame.sense = Sense::tension;
     frame.ends = [parts](const SolidState& now) { return ends_of(now, parts); };
     frame.strains = [parts](const SolidState& now) {
-        const Plate& driven = now.plates[parts.driven.front()];
-        return TestStrains { dot(driven.displacement, parts.direction) / parts.length,
+        return TestStrains { dot(way_of(now, parts), parts.direction) / parts.length,
             std::numeric_limits<double>::quiet_NaN() };
     };
     return frame;
 }
 
-SolidDrive drive_of(const PartGeometry& parts) { return { parts.driven, parts.direction, 1.0 }; }
+SolidDrive drive_of(const PartGeometry& parts)
+{
+    return { parts.driven, parts.direction, 1.0, parts.driven_sets };
+}
 
 TestScales solid_part_scales(
     const SolidState& s, const PartGeometry& parts, double strength, double dt)
 {
     check(s, parts);
     check_not_negative("strength", strength, "Pa");
-    const double way = small_strain * parts.length;
     const SolidField field = elastic_field(s, drive_of(parts));
+    const double softening = elastic_strain(s, field, 1.0);  // a way: the field is that of 1 m
+    const double way = std::min(small_strain * parts.length, small_part * softening);
     SolidState moved = s;
     start(moved, drive_of(parts), field, way, 1.0, true, dt);
+    sum_node_sets(moved, 0.0);
     const EndForces ends = ends_of(moved, parts);
     const double stiffness = 0.5 * (ends.top - ends.bottom) / way;
     check_positive("stiffness that the driven plates feel", stiffness, "N/m");
     const double mass = 2.0 * kinetic_of_velocities(moved);
     const double width = std::sqrt(parts.area), modulus = stiffness * parts.length / parts.area;
-    if (strength == 0.0) {
-        const double softening = elastic_strain(s, field, 1.0) / parts.length;
-        strength = strength_over_softening * softening * modulus;
-    }
+    if (strength == 0.0) strength = strength_over_softening * softening / parts.length * modulus;
     return { std::sqrt(3.0 * mass / stiffness) / dt, modulus, strength, parts.length, width,
         scale_inputs(s, Sense::tension, width, dt).damage_share };
 }

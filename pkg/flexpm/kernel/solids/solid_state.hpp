@@ -346,6 +346,7 @@ struct SolidState {
     FaceContacts contacts;
     SurfaceTriangles surface;
     std::vector<Plate> plates;  ///< on ends of rigid grains; facets are surface triangles
+    std::vector<NodeSet> node_sets;
     std::vector<HeldFace> held_faces;
     EnergyLedger ledger;
     /// Motions as of the plane; `spin` is [grain][x y z], `angle` the turn, [grain][w x y z].
@@ -368,6 +369,7 @@ struct SolidState {
         visit("contacts", s.contacts);
         visit("surface", s.surface);
         visit("plates", s.plates);
+        visit("node_sets", s.node_sets);
         visit("held_faces", s.held_faces);
         visit("ledger", s.ledger);
         visit("loading", s.loading);

@@ -121,6 +121,30 @@ std::vector<double> push_of(const LinearSolid& solid, const SolidDrive& drive)
     return on_nodes;
 }
 
+/// Ways of what is held: of driven sets that of the loading. Calls give(grain, node, axis, way).
+template <class Give> void give_ways(const SolidState& s, const SolidDrive& drive, Give give)
+{
+    const Vector way = drive.length * drive.direction;
+    const double along[] = { way.x, way.y, way.z };
+    for (int number : drive.sets) {
+        const NodeSet& set = s.node_sets[number];
+        for (std::size_t i = 0; i < set.nodes.size(); ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                if (set.holds(axis)) give(set.grains[i], set.nodes[i], axis, along[axis]);
+    }
+}
+
+/// Forces that given ways leave on what is free, added to those of a load.
+void add_given(
+    const LinearForces& forces, const std::vector<double>& given, std::vector<double>& load)
+{
+    for (double& f : load)
+        f = -f;
+    forces.add(given.data(), load.data());
+    for (double& f : load)
+        f = -f;
+}
+
 /// @param rises  the ends are driven: z from the bottom is given where nodes are held along it, and
 ///               where the solution begins
 SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, bool rises, double low)
@@ -140,11 +164,11 @@ SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, bool ris
     std::vector<double> load = push_of(solid, drive);
     for (std::size_t n = 0; rises && n < solid.places.size(); ++n)
         (held[3 * n + 2] ? given : guess)[3 * n + 2] = solid.places[n].z - low;
-    for (double& f : load)
-        f = -f;
-    solid.add(given.data(), load.data());
-    for (double& f : load)
-        f = -f;
+    const NodeNumbers numbers(s);
+    give_ways(s, drive, [&](int grain, int node, int axis, double way) {
+        given[3 * numbers.of(grain, node) + axis] = way;
+    });
+    add_given(solid, given, load);
     const FreeSolution found = solve_free(solid, held, load, guess);
     SolidField field;
     for (std::size_t n = 0; n < solid.places.size(); ++n)
@@ -167,7 +191,13 @@ SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, bool ri
     for (int g = 0; g < s.grains.count; ++g)
         for (int axis = 0; axis < 3; ++axis)
             held[6 * g + axis] = s.grains.prescribed[s.grains.component(s.grains.centre(g), axis)];
-    const FreeSolution found = solve_free(rigid, held, load, guess);
+    std::vector<double> given(guess.size(), 0.0);
+    give_ways(
+        s, drive, [&](int grain, int, int axis, double way) { given[6 * grain + axis] = way; });
+    add_given(rigid, given, load);
+    FreeSolution found = solve_free(rigid, held, load, guess);
+    for (std::size_t i = 0; i < given.size(); ++i)
+        found.u[i] += given[i];
     SolidField field;
     for (int g = 0; g < s.grains.count; ++g) {
         field.ways.push_back(triple_at(found.u.data(), 2 * g));
@@ -183,8 +213,9 @@ SolidField field_of(const SolidState& s, const SolidDrive& drive, bool rises, do
     if (!s.held_faces.empty())
         refuse("elastic_field: held faces of rigid grains",
             static_cast<double>(s.held_faces.size()), "", "must be 0; hold sides across an axis");
-    if (rigid && s.plates.size() < 2) {
-        refuse("elastic_field: plates", static_cast<double>(s.plates.size()), "",
+    const std::size_t parts = s.plates.size() + s.node_sets.size();
+    if (rigid && parts < 2) {
+        refuse("elastic_field: plates", static_cast<double>(parts), "",
             "must be 2 or more of rigid grains; call hold_ends() first");
     }
     return rigid ? field_of_bodies(s, drive, rises, low) : field_of_nodes(s, drive, rises, low);

@@ -17,15 +17,18 @@ namespace flexpm {
 /// @throws std::runtime_error  if the forces do not come to balance
 SolidField elastic_field(const SolidState& s);
 
-/// What loads a specimen: plates that go a way, or the nodes of its top along z.
+/// What loads a specimen: plates and node sets that go a way, or the nodes of its top along z.
 struct SolidDrive {
-    std::vector<int> plates = {};          ///< their numbers; none: the top's nodes
+    std::vector<int> plates = {};          ///< their numbers
     Vector direction = { 0.0, 0.0, 1.0 };  ///< a unit vector
     double length = 1.0;                   ///< of the way for which a field is [m]
+    std::vector<int> sets = {};            ///< their numbers
+
+    bool moves_top() const { return plates.empty() && sets.empty(); }
 };
 
-/// The same where plates hold and load a specimen by themselves, at that way of the driven ones.
-/// Those that a load moves follow.
+/// The same where plates and node sets hold and load a specimen by themselves, at that way of the
+/// driven ones. Those that a load moves follow.
 SolidField elastic_field(const SolidState& s, const SolidDrive& drive);
 
 /// Forces of an intact specimen; nodes grain after grain, the centre last.

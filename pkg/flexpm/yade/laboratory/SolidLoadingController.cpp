@@ -17,9 +17,10 @@ void SolidLoadingController::action()
 	const Real before = drivenAt;
 	follow(velocity, seenVelocity, drivenAt);
 	if (gripped && drivenAt == before) return;
-	const auto drive = plates.empty() ? flexpm::drive_of_top(*state) : flexpm::SolidDrive { plates, { direction[0], direction[1], direction[2] } };
+	const flexpm::SolidDrive parts { plates, { direction[0], direction[1], direction[2] }, 1, nodeSets };
+	const auto               drive = parts.moves_top() ? flexpm::drive_of_top(*state) : parts;
 	if (gripped) return flexpm::go_on(*state, drive, drivenAt, scene->dt);
-	const auto field = plates.empty() ? flexpm::elastic_field(*state) : flexpm::elastic_field(*state, drive);
+	const auto field = parts.moves_top() ? flexpm::elastic_field(*state) : flexpm::elastic_field(*state, drive);
 	if (state->step > 0)
 		flexpm::take_over(*state, drive, field, drivenAt, undampedLoading, scene->dt);
 	else

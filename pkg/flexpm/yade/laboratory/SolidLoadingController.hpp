@@ -14,11 +14,12 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(SolidLoadingController, LoadingController,
-		"Moves the top of a solid, whose ends :yref:`SolidSolver.holdEnds` has taken hold of, along z, or plates that :yref:`SolidSolver.layLine` and layPatch have laid. "
+		"Moves the top of a solid, whose ends :yref:`SolidSolver.holdEnds` has taken hold of, along z, or plates and node sets that :yref:`SolidSolver.layLine`, layPatch and addNodeSet have laid. "
 		"It starts with the velocities of the elastic solution, so that no wave runs through the specimen, from where pressures have brought it. Place it before :yref:`SolidSolver`.",
 		((Real, velocity, 0.,, "Velocity of the top at factor 1, positive away from the bottom, or of the plates along their direction [m/s, or m per step with scaled masses]."))
-		((vector<int>, plates,,, "Numbers of the plates that move; none: the top does [-]."))
-		((Vector3r, direction, Vector3r::UnitZ(),, "Direction of the plates, a unit vector [-]."))
+		((vector<int>, plates,,, "Numbers of the plates that move [-]."))
+		((vector<int>, nodeSets,,, "Numbers of the node sets that move; neither: the top does [-]."))
+		((Vector3r, direction, Vector3r::UnitZ(),, "Direction of these, a unit vector [-]."))
 		((bool, gripped, false, Attr::readonly, "It has begun to move |yupdate|."))
 		((Real, seenVelocity, 0., Attr::hidden, "The velocity as set at the last step [m/s, or m per step]."))
 		((Real, drivenAt, 0., Attr::hidden, "Velocity that the top has [m/s, or m per step]."))

@@ -169,7 +169,10 @@ public:
 	// clang-format on
 
 private:
-	flexpm::PartGeometry parts() const { return { driven, holding, { direction[0], direction[1], direction[2] }, area, length }; }
+	flexpm::PartGeometry parts() const
+	{
+		return { driven, holding, { direction[0], direction[1], direction[2] }, area, length, drivenSets, {}, holdingSets };
+	}
 };
 REGISTER_SAVED(SolidPartFrame);
 

@@ -8,6 +8,8 @@
 #include <flexpm/kernel/solid_tests/solid_gauge.hpp>
 #include <flexpm/kernel/solid_tests/solid_loose.hpp>
 #include <flexpm/kernel/solid_tests/solid_parts.hpp>
+#include <flexpm/kernel/solid_tests/solid_sets.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_build.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/solids/solid_masses.hpp>
@@ -157,6 +159,42 @@ py::list SolidSolver::plates()
 	return all;
 }
 
+py::tuple SolidSolver::nodePlaces(bool bonded)
+{
+	const auto          nodes = flexpm::holdable_nodes(state);
+	std::vector<double> places;
+	for (int node : nodes) {
+		const auto p = bonded ? flexpm::space_vector(state.grains.reference, node) : flexpm::drawn_place(state.grains, node);
+		places.insert(places.end(), { p.x, p.y, p.z });
+	}
+	return py::make_tuple(flexpm_bindings::copied(nodes, 0), flexpm_bindings::copied(places, 3));
+}
+
+int SolidSolver::addNodeSet(vector<int> nodes, bool x, bool y, bool z) { return flexpm::add_node_set(state, nodes, { x, y, z }); }
+
+void SolidSolver::moveNodeSet(int set, Vector3r velocity)
+{
+	flexpm::set_velocity_of(state, set, fromYade(velocity));
+	flexpm::promise_work(state, Omega::instance().getScene()->dt);
+}
+
+py::list SolidSolver::nodeSets()
+{
+	py::list all;
+	for (const flexpm::NodeSet& set : state.node_sets) {
+		py::dict d;
+		d["nodes"]        = flexpm_bindings::copied(set.nodes, 0);
+		d["axes"]         = string(set.holds_x ? "x" : "") + (set.holds_y ? "y" : "") + (set.holds_z ? "z" : "");
+		d["floats"]       = false;
+		d["place"]        = tupleOf(set.pivot);
+		d["displacement"] = tupleOf(set.displacement);
+		d["force"]        = tupleOf(set.force);
+		d["work"]         = set.work;
+		all.append(d);
+	}
+	return all;
+}
+
 void SolidSolver::clearPressure(int side) { flexpm::set_pressure(state, side, 0.); }
 
 void SolidSolver::holdSide(int side, bool x, bool y, bool z)
@@ -184,6 +222,7 @@ void SolidSolver::action()
 	}
 	if (state.step % checkPeriod == 0 || destroyedContacts() != seenDestroyed) removeErased();
 	flexpm::step(state, stepOptions());
+	flexpm::sum_node_sets(state, scene->dt);
 	if (state.step % mirrorPeriod == 0) mirrorStates();
 	if (state.step % checkPeriod == 0) check();
 	if (scene->trackEnergy && measured()) trackEnergies();

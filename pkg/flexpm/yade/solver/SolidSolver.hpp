@@ -33,6 +33,10 @@ public:
 	void freePlate(int plate);
 	py::tuple gaugePoints(Vector3r first, Vector3r second);
 	py::list  plates();
+	py::tuple nodePlaces(bool bonded);
+	int       addNodeSet(vector<int> nodes, bool x, bool y, bool z);
+	void      moveNodeSet(int set, Vector3r velocity);
+	py::list  nodeSets();
 	py::tuple elasticConstants();
 	void      clearPressure(int side);
 	void      holdSide(int side, bool x, bool y, bool z);
@@ -44,7 +48,6 @@ public:
 	py::dict  overlaps();
 	py::dict  balance();
 	Real      crossingSteps(Real diameter);
-	py::list  nothing() { return py::list(); }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SolidSolver, GrainSolver,
@@ -84,7 +87,10 @@ public:
 		.def("overlaps", WithGrains<&SolidSolver::overlaps>::call, "The deepest overlap of grains that share no contact, which nothing keeps apart, as a dictionary: depth [m], of_diameter, over the mean diameter [-], grains, a pair, and pairs, how many overlap.")
 		.def("crossingSteps", WithGrains<&SolidSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a ball of the grains of a diameter [m] [-].")
 		.def("plates", WithGrains<&SolidSolver::plates>::call, "All plates as dictionaries: what they are, where, and what they bear at the last step; those on ends, too.")
-		.def("nodeSets", &SolidSolver::nothing, "None.")
+		.def("nodePlaces", WithGrains<&SolidSolver::nodePlaces>::call, (py::arg("bonded") = false), "Nodes that a set may hold, all of deformable grains and the centres of rigid ones, and their x, y and z, now or when bonded [m].")
+		.def("addNodeSet", WithGrains<&SolidSolver::addNodeSet>::call, (py::arg("nodes"), py::arg("x") = true, py::arg("y") = true, py::arg("z") = true), "Hold nodes at rest along the axes named; returns the number of the set.")
+		.def("moveNodeSet", WithGrains<&SolidSolver::moveNodeSet>::call, (py::arg("set"), py::arg("velocity")), "Let a node set move from the next step on [m/s, or m per step].")
+		.def("nodeSets", WithGrains<&SolidSolver::nodeSets>::call, "All node sets as dictionaries: what they hold, where, and what they bear at the last step.")
 	);
 	// clang-format on
 

@@ -138,7 +138,8 @@ def result_so_far(rig: RigReadings, inputs: Table) -> Result:
         *(_MODULI if without_area or without_length else ()),
     ):
         setattr(result, name, None)
-    if drive and not drive["direction"][2] and len(result.curve):  # what turns has moments
+    turns = bool(drive) and drive["direction"][2] != 0.0 and not rig.solid  # it has moments
+    if drive and not turns and len(result.curve):
         result.peak_load = float(result.curve["load"].max())
     return result
 

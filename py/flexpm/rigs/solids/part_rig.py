@@ -17,7 +17,7 @@ from ...models.grains import Model
 from ...require import NOT_NEGATIVE, quoted, require_flag, require_number, require_whole
 from ...runs.runner import Runner, Span
 from ...specimens.space.specimen import SolidSpecimen
-from ..layout import NO_SLIDING
+from ..layout import NO_SLIDING, before
 from ..outcome.calls import recording
 from ..outcome.kept import Leaves
 from ..part_rig import PartRig
@@ -44,11 +44,11 @@ _UPRIGHT = 0.5
 
 @recording
 class SolidPartRig(SolidGrains, PartRig):
-    """A solid between parts, each a plate before a part of its outside.
+    """A solid between parts: plates before parts of its outside, and sets of nodes.
 
     Its calls are those of `PartRig`, places and directions with a third component: `support`,
-    `platen`, `gauge`, `way_of`, `drive`, then `press`, `load`, `strain_to`, `stress_to`, `relax`,
-    `unload`, `cycle`, `follow`. What is of the plane alone is refused. Deviation D101.
+    `platen`, `hold`, `gauge`, `way_of`, `drive`, then `press`, `load`, `strain_to`, `stress_to`,
+    `relax`, `unload`, `cycle`, `follow`. What is of the plane alone is refused. Deviation D101.
     """
 
     _axes = SPACE
@@ -153,27 +153,23 @@ class SolidPartRig(SolidGrains, PartRig):
 
     def jaw(self, *_: object, **__: object) -> NoReturn:
         """Refuse it: of the plane alone. ``flexpm run brazilian --jaw-radius`` has it."""
-        raise _of_the_plane("jaw")
-
-    def hold(self, *_: object, **__: object) -> NoReturn:
-        """Refuse it: of the plane alone."""
-        raise _of_the_plane("hold")
+        raise _of_the_plane(self.jaw)
 
     def turn(self, *_: object, **__: object) -> NoReturn:
         """Refuse it: of the plane alone."""
-        raise _of_the_plane("turn")
+        raise _of_the_plane(self.turn)
 
     def fluid(self, *_: object, **__: object) -> NoReturn:
         """Refuse it: of the plane alone. ``flexpm.rig`` presses on the sides of a solid."""
-        raise _of_the_plane("fluid")
+        raise _of_the_plane(self.fluid)
 
     def excavate(self, *_: object, **__: object) -> NoReturn:
         """Refuse it: of the plane alone."""
-        raise _of_the_plane("excavate")
+        raise _of_the_plane(self.excavate)
 
     def elastic(self, *_: object, **__: object) -> NoReturn:
         """Refuse it: of the plane alone. ``flexpm.elastic`` gives the constants of a solid."""
-        raise _of_the_plane("elastic")
+        raise _of_the_plane(self.elastic)
 
     @property
     def machine(self) -> float:
@@ -187,24 +183,31 @@ class SolidPartRig(SolidGrains, PartRig):
 
     @property
     def parts(self) -> list[Table]:
-        """All plates as plain values, by their numbers.
+        """All parts as plain values: plates, then held nodes by their numbers.
 
         A place is that where the part was laid, or since when displacements count [m]; a face is
-        its trace along x and z [m].
+        the trace of a plate along x and z [m].
         """
         names = ("normal", "area", "friction", "bonded")
-        return [
+        plates = [
             {
                 "part": "plate",
                 **{name: one[name] for name in names},
-                "place": [
-                    float(now - way)
-                    for now, way in zip(one["place"], one["displacement"], strict=True)
-                ],
+                "place": before(one),
                 "face": self._lines.get(number, []),
             }
             for number, one in enumerate(self._solid.plates())
         ]
+        sets = [
+            {
+                "part": "held nodes",
+                "nodes": [int(node) for node in one["nodes"]],
+                "axes": one["axes"],
+                "place": before(one),
+            }
+            for one in self._solid.nodeSets()
+        ]
+        return [*plates, *sets]
 
     def read_mouth(self, first: float, second: float) -> None:
         """Record how far two lines of the bottom at x move apart, across the depth, as ``cmod``.
@@ -282,9 +285,11 @@ class SolidPartRig(SolidGrains, PartRig):
     def _take_hold(self) -> wrapper.LoadingController:
         frame = self._frame
         self._let_go(frame.driven)
-        plates = wrapper.SolidLoadingController(plates=frame.driven, direction=frame.direction)
-        self.built.add_engines(before=(plates,))
-        return plates
+        loading = wrapper.SolidLoadingController(
+            plates=frame.driven, nodeSets=frame.drivenSets, direction=frame.direction
+        )
+        self.built.add_engines(before=(loading,))
+        return loading
 
     def _move(self, velocity: float, factor: float) -> None:
         loading = self._recorder.loading
@@ -308,9 +313,9 @@ class SolidPartRig(SolidGrains, PartRig):
         return frame
 
 
-def _of_the_plane(call: str) -> InputError:
+def _of_the_plane(call: Callable[..., object]) -> InputError:
     """What says that solids do not have a call."""
-    return InputError(f"{call}: specimen = a solid, must be plane; lay supports and platens")
+    return InputError(f"{call.__name__}: specimen = a solid, must be plane; lay supports and platens")
 
 
 def _refuse(call: str, **given: object) -> None:

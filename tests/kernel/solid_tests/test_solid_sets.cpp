@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Nodes of a solid that are held or moved as one: what they bear, their work, refusals.
+#include "support/catch.hpp"
+
+#include <flexpm/kernel/solid_tests/solid_drive.hpp>
+#include <flexpm/kernel/solid_tests/solid_parts.hpp>
+#include <flexpm/kernel/solid_tests/solid_sets.hpp>
+#include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/solids/solid_masses.hpp>
+#include <flexpm/kernel/solids/solid_step.hpp>
+
+#include "solids/solid_states.hpp"
+
+using namespace solid_states;
+
+namespace {
+
+constexpr double damping = 0.7, dt = 1.0, a = solid_samples::side;
+constexpr Vector up { 0.0, 0.0, 1.0 };
+constexpr std::array<bool, 3> all { true, true, true };
+
+SolidState made(const Packing& p, bool rigid)
+{
+    return make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
+}
+
+/// Nodes that a set may hold between two heights.
+std::vector<int> between(const SolidState& s, double low, double high)
+{
+    std::vector<int> found;
+    for (int n : holdable_nodes(s)) {
+        const double z = space_vector(s.grains.reference, n).z;
+        if (z >= low && z <= high) found.push_back(n);
+    }
+    return found;
+}
+
+void go(SolidState& s, int steps)
+{
+    for (int k = 0; k < steps; ++k) {
+        step(s, { dt, damping, 1, true });
+        sum_node_sets(s, dt);
+    }
+}
+
+double imbalance(const Energies& e)
+{
+    return e.kinetic + e.elastic + e.damage + e.friction + e.damping + e.drag - e.boundary_work
+        - e.initial;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "Sets that pull a solid apart bear the same, and their work is that of the ledger", "[solids]")
+{
+    const Packing p = packing(60, 5);
+    const double height = p.solid.high.z;
+    for (const bool rigid : { false, true }) {
+        SolidState s = made(p, rigid);
+        const int low = add_node_set(s, between(s, -a, 0.2 * height), all);
+        const int high = add_node_set(s, between(s, 0.8 * height, height + a), all);
+        scale_masses(s, damping, dt);
+        const PartGeometry parts { {}, {}, up, 1.0, 1.0, { high }, {}, { low } };
+        const SolidDrive drive = drive_of(parts);
+        const SolidField field = elastic_field(s, drive);
+        const double velocity = 1e-8 * height;
+        const double stiffness = solid_part_scales(s, parts, 1e6, dt).modulus;
+        start(s, drive, field, 0.0, velocity, true, dt);
+        CHECK(velocity_of(s, drive) == velocity);
+        go(s, 400);
+        const AxialObservation now = observe(s, solid_part_frame(s, parts));
+        const double way = 400.0 * velocity;
+        CHECK(now.axial_strain == Approx(way).epsilon(1e-12));
+        // the motion is that of the elastic solution: no wave, the same force at both ends
+        INFO(rigid << " " << now.axial_stress / (stiffness * way));
+        CHECK(now.axial_stress == Approx(stiffness * way).epsilon(2e-3));
+        CHECK(now.end_mismatch < 2e-3);
+        CHECK(s.node_sets[high].force.z == Approx(-s.node_sets[low].force.z).epsilon(2e-3));
+        const Energies e = energies(s);
+        CHECK(std::fabs(imbalance(e)) < 1e-9 * e.elastic);
+        CHECK(s.node_sets[high].work == Approx(0.5 * stiffness * way * way).epsilon(5e-3));
+        CHECK(s.node_sets[low].work == 0.0);
+        CHECK(e.boundary_work == Approx(s.node_sets[high].work).epsilon(1e-9));
+        // back at the same speed: the forces go back, too
+        go_on(s, drive, -velocity, dt);
+        go(s, 400);
+        const AxialObservation back = observe(s, solid_part_frame(s, parts));
+        CHECK(std::fabs(back.axial_stress) < 2e-3 * now.axial_stress);
+        CHECK(std::fabs(imbalance(energies(s))) < 1e-8 * e.elastic);
+    }
+}
+
+TEST_CASE("A set holds along its axes alone", "[solids]")
+{
+    const Packing p = packing(40, 5);
+    const double height = p.solid.high.z;
+    SolidState s = made(p, false);
+    const int set = add_node_set(s, between(s, -a, 0.2 * height), { true, false, true });
+    scale_masses(s, damping, dt);
+    set_velocity_of(s, set, { 1e-9 * height, 0.0, 0.0 });
+    promise_work(s, dt);
+    go(s, 10);
+    CHECK(s.node_sets[set].displacement.x == Approx(1e-8 * height).epsilon(1e-12));
+    CHECK(s.node_sets[set].force.y == 0.0);
+    CHECK_THROWS_WITH(
+        set_velocity_of(s, set, { 0.0, 1.0, 0.0 }), Catch::Contains("axis 1 = 1 m/s, must be 0"));
+    CHECK_THROWS_WITH(set_velocity_of(s, 3, {}), Catch::Contains("node set = 3"));
+    CHECK_THROWS_WITH(add_node_set(s, {}, all), Catch::Contains("nodes of a set = 0"));
+    CHECK_THROWS_WITH(add_node_set(s, { s.node_sets[set].nodes.front() }, all),
+        Catch::Contains("is held already"));
+    CHECK_THROWS_WITH(add_node_set(s, { -5 }, all), Catch::Contains("node of a set = -5"));
+    CHECK_THROWS_WITH(add_node_set(s, between(s, 0.5 * height, height), { false, false, false }),
+        Catch::Contains("axes of a set = 0"));
+    // plates and sets do not share nodes
+    const SolidPatch lid { -1.0 * up, { -a, -a, height - a },
+        { p.solid.high.x + a, p.solid.high.y + a, height + a } };
+    const SolidPatch base { up, { -a, -a, -a }, { p.solid.high.x + a, p.solid.high.y + a, a } };
+    CHECK_THROWS_WITH(add_patch_plate(s, base), Catch::Contains("lies on a plate"));
+    add_patch_plate(s, lid);
+    CHECK_THROWS_WITH(
+        add_node_set(s, between(s, 0.8 * height, height + a), all), Catch::Contains("on a plate"));
+}
