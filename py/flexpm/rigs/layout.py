@@ -340,7 +340,8 @@ def _require_axes(axes: object, there: str) -> str:
         return there
     if isinstance(axes, str) and axes and axes == "".join(one for one in there if one in axes):
         return axes
-    raise InputError(f"hold: axes = {quoted(axes)}, must be some of {there}, in this order")
+    rule = "x, y or xy" if there == PLANE else f"some of {there}, in this order"
+    raise InputError(f"hold: axes = {quoted(axes)}, must be {rule}")
 
 
 def _strip(label: str, strip: float | None) -> float:

@@ -38,7 +38,7 @@ def _unused(kind: TestKind) -> tuple[str, ...]:
 #: Options that a test has no use for.
 UNUSED = {name: _unused(kind) for name, kind in KINDS.items()}
 #: Options that no solid has; the first is one of its packing.
-OF_THE_PLANE = ("thickness", "points", "mesh", "dynamic", "gravity", "start", "control")
+OF_THE_PLANE = ("thickness", "points", "mesh", "dynamic", "gravity", "start")
 
 
 def unused(test: str, shape: object = None) -> tuple[str, ...]:

@@ -190,6 +190,6 @@ TEST_CASE("A plate that no load moves takes none", "[solids]")
     const GaugePoints gauge = gauge_points(s, middle - 0.5 * a * up, middle + 0.5 * a * up);
     CHECK(gauge.first != gauge.second);
     CHECK(gauge_length(s, gauge) < 2.0 * a);
-    CHECK(gauge_opening(s, gauge, up) == 0.0);
+    CHECK(opening_in_space(s.grains.displacement, gauge, up) == 0.0);
     CHECK_THROWS_WITH(gauge_points(s, middle, middle), Catch::Contains("length of a gauge = 0 m"));
 }

@@ -216,7 +216,7 @@ def test_numbers_of_numpy_are_numbers_and_nonsense_is_refused_in_one_line():
         (lambda: rig.drive(sides[0], 7), "drive: direction = 7, must be x and y"),
         (lambda: rig.gauge(5, (0, 0), (1, 1)), "gauge = 5, must be a text"),
         (lambda: rig.gauge("g", (0, 0), None), "gauge g: second = None, must be x and y"),
-        (lambda: rig.hold(axes=None, box=((0, 0), (1, 1))), "hold: axes = None, must be x, y"),
+        (lambda: rig.hold(axes=3, box=((0, 0), (1, 1))), "hold: axes = 3, must be x, y"),
         (lambda: flexpm.Loading(control=5), "Loading: control = 5, must be a text"),
         (lambda: flexpm.Loading(static="a"), "Loading: static = 'a', must be true or false"),
         (lambda: BEAM.with_joints(np.ma.masked_array(np.eye(9))), "joints = masked_array("),

@@ -118,7 +118,6 @@ def test_a_depth_asks_for_a_solid_and_its_folder_repeats(tmp_path, capsys, monke
         (["--depth", "0.02", "--diameter", "0.1"], "diameter = 0.1 m, must not be given for"),
         (["--depth", "0.02", "--confinement", "1e6"], "confinement = 1000000.0 Pa, must"),
         (["--depth", "0.02", "--model", "jcfpm"], "must be one of flexible, rigid"),
-        (["--depth", "0.02", "--control", "cmod"], "control = cmod, must be left out for a box"),
         (["--depth", "0.02", "--span", "0.2"], "span = 0.2 m, must be"),
         (["--depth", "0.02", "--notch", "0.04"], "notch = 0.04 m, must be"),
         (["--depth", "0.02", "--notch", "0.01", "--span", "0.04"], "2.5 times the height"),

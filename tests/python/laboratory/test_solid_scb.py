@@ -95,7 +95,6 @@ def test_a_depth_asks_for_a_solid_and_its_folder_repeats(tmp_path, capsys, monke
         (["--depth", "0.02", "--thickness", "0.01"], "thickness = 0.01 m, must not be"),
         (["--depth", "0.02", "--model", "jcfpm"], "must be one of flexible, rigid"),
         (["--depth", "0.02", "--span", "0.06"], "span = 0.06 m, must be"),
-        (["--depth", "0.02", "--control", "cmod"], "control = cmod, must be left out for a solid"),
         (["--shape", "box"], "must be a half-disc for scb, or a solid-half-disc"),
     ],
 )

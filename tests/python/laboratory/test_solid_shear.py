@@ -111,5 +111,3 @@ def test_plates_without_one_for_a_pressure_are_not_pressed():
     rig = part_tests.part_rig(flexpm.build(beam, material), spec, None)
     with pytest.raises(InputError, match="confine: part = None, must be one of the rig"):
         rig.confine(1e6)
-    with pytest.raises(InputError, match="roughen: friction = 0.2, must be left out between"):
-        rig.roughen(0.2)

@@ -68,14 +68,13 @@ std::vector<Crossing> crossings(const SolidState& s, double x, double z, Vector 
 }
 
 /// Mean way along x of the bottom on a line.
-double mean_way(const SolidState& s, double x, double off)
+double mean_way(const SolidState& s, double x, double off, const Array<double>& moved)
 {
     const double bottom = end_place(s, SolidSide::bottom);
     double sum = 0.0, length = 0.0;
     for (const Crossing& one : crossings(s, x, bottom, { 0.0, 0.0, 1.0 }, off)) {
         for (int k = 0; k < 3; ++k)
-            sum += one.length * one.shares[k]
-                * s.grains.displacement[s.surface.nodes[one.triangle][k]];
+            sum += one.length * one.shares[k] * moved[s.surface.nodes[one.triangle][k]];
         length += one.length;
     }
     return length > 0.0 ? sum / length : 0.0;
@@ -127,8 +126,13 @@ int find_line_plate(const SolidState& s, SolidSide side, const BearingLine& line
 
 double mouth_opening(const SolidState& s, const Mouth& mouth)
 {
-    return mean_way(s, mouth.middle + mouth.reach, mouth.reach)
-        - mean_way(s, mouth.middle - mouth.reach, mouth.reach);
+    return mouth_opening(s, mouth, s.grains.displacement);
+}
+
+double mouth_opening(const SolidState& s, const Mouth& mouth, const Array<double>& moved)
+{
+    return mean_way(s, mouth.middle + mouth.reach, mouth.reach, moved)
+        - mean_way(s, mouth.middle - mouth.reach, mouth.reach, moved);
 }
 
 }  // namespace flexpm

@@ -37,4 +37,7 @@ struct Mouth {
 /// over the depth [m].
 double mouth_opening(const SolidState& s, const Mouth& mouth);
 
+/// The same where nodes move so, in the layout of Grains::displacement [m, or m/s].
+double mouth_opening(const SolidState& s, const Mouth& mouth, const Array<double>& moved);
+
 }  // namespace flexpm

@@ -4,6 +4,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/motion/loaded_plate.hpp>
 #include <flexpm/kernel/solid_tests/solid_sets.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
@@ -117,6 +118,25 @@ void go_on(SolidState& s, const SolidDrive& drive, double velocity, double dt)
     const double before = kinetic_of_velocities(s);
     change_loading(s, velocity / old);
     s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
+}
+
+Array<double> loading_field(const SolidState& s)
+{
+    const Grains& grains = s.grains;
+    Array<double> field = s.loading.grains.velocity;
+    for (int g = 0; g < grains.count; ++g) {
+        if (!grains.is_rigid(g)) continue;
+        const int centre = grains.centre(g);
+        const Vector velocity = space_vector(field, centre), spin = spin_in(s.loading.grains, g);
+        for (int n = 0; n < grains.vertices_of(g); ++n) {
+            const int node = grains.node(g, n);
+            const Vector arm = drawn_place(grains, node) - drawn_place(grains, centre);
+            set_space_vector(field, node, velocity + cross(spin, arm));
+        }
+    }
+    for (std::size_t i = 0; i < field.size(); ++i)
+        if (grains.prescribed[i]) field[i] = grains.velocity[i];
+    return field;
 }
 
 double velocity_of(const SolidState& s, const SolidDrive& drive)

@@ -34,6 +34,10 @@ void take_over(SolidState& s, const SolidDrive& drive, const SolidField& field, 
 /// @throws std::invalid_argument  unless the velocity is finite
 void go_on(SolidState& s, const SolidDrive& drive, double velocity, double dt);
 
+/// Velocities that the loading gives to the nodes, those of rigid grains by their motion, in the
+/// layout of Grains::displacement; of held nodes their own [m/s].
+Array<double> loading_field(const SolidState& s);
+
 /// Velocity of what loads [m/s].
 double velocity_of(const SolidState& s, const SolidDrive& drive);
 

@@ -80,7 +80,7 @@ double axial_strain(const SolidState& s)
 
 /// Mean of both lateral strains, extension positive. By Gauss's theorem the ways along the mantle's
 /// normals sum to it; of rigid grains those of the centres behind it.
-double lateral_extension(const SolidState& s)
+double lateral_extension(const SolidState& s, const Array<double>& moved)
 {
     double way = 0.0, whole = 0.0;
     for (int t = 0; t < triangles(s); ++t) {
@@ -89,7 +89,7 @@ double lateral_extension(const SolidState& s)
         std::array<int, 3> nodes = s.surface.nodes[t];
         if (!s.bodies.empty()) nodes.fill(s.grains.centre(s.surface.grain[t]));
         for (int n : nodes) {
-            way += dot(area, space_vector(s.grains.displacement, n)) / 3.0;
+            way += dot(area, space_vector(moved, n)) / 3.0;
             whole += dot(area, space_vector(s.grains.reference, n)) / 3.0;
         }
     }
@@ -199,7 +199,12 @@ SolidFrame solid_disc_frame(const SolidState& s, double diameter, double depth)
 
 double lateral_strain(const SolidState& s, Sense sense)
 {
-    const double extension = lateral_extension(s);
+    return lateral_strain(s, sense, s.grains.displacement);
+}
+
+double lateral_strain(const SolidState& s, Sense sense, const Array<double>& moved)
+{
+    const double extension = lateral_extension(s, moved);
     return sense == Sense::compression ? extension : -extension;
 }
 

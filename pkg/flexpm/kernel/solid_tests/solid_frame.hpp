@@ -31,6 +31,9 @@ SolidFrame solid_disc_frame(const SolidState& s, double diameter, double depth);
 /// Lateral strain, positive as Poisson's effect under the sense of the loading [-].
 double lateral_strain(const SolidState& s, Sense sense);
 
+/// The same where nodes move so, in the layout of Grains::displacement [-, or 1/s].
+double lateral_strain(const SolidState& s, Sense sense, const Array<double>& moved);
+
 /// Forces that hold the ends along z [N].
 EndForces end_forces(const SolidState& s);
 

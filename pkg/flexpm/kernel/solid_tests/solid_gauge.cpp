@@ -47,12 +47,19 @@ int nearest_node(const SolidState& s, Vector place, Vector other)
     return found;
 }
 
-Vector way_of(const SolidState& s, int node)
+Vector way_of(const Array<double>& moved, int node)
 {
-    const int last = static_cast<int>(s.grains.displacement.size()) - s.grains.layout.node_stride;
+    const int last = static_cast<int>(moved.size()) - space_layout.node_stride;
     if (node < 0 || node > last)
         refuse("node of a gauge", node, "", "must be one of gauge_points() or section_at()");
-    return space_vector(s.grains.displacement, node);
+    return space_vector(moved, node);
+}
+
+const Plate& plate_at(const SolidState& s, int plate)
+{
+    if (plate < 0 || plate >= static_cast<int>(s.plates.size()))
+        refuse("plate of a gauge", plate, "", "must be the number of a plate; lay one first");
+    return s.plates[plate];
 }
 
 }  // namespace
@@ -69,24 +76,29 @@ double gauge_length(const SolidState& s, const GaugePoints& gauge)
         - space_vector(s.grains.reference, gauge.first));
 }
 
-double gauge_opening(const SolidState& s, const GaugePoints& gauge, Vector direction)
+double opening_in_space(const Array<double>& moved, const GaugePoints& gauge, Vector direction)
 {
-    return dot(way_of(s, gauge.second) - way_of(s, gauge.first), direction);
+    return dot(way_of(moved, gauge.second) - way_of(moved, gauge.first), direction);
 }
 
 double plate_way(const SolidState& s, int plate, Vector direction)
 {
-    if (plate < 0 || plate >= static_cast<int>(s.plates.size()))
-        refuse("plate of a gauge", plate, "", "must be the number of a plate; lay one first");
-    return dot(s.plates[plate].displacement, direction);
+    return dot(plate_at(s, plate).displacement, direction);
 }
 
-double mean_way(const SolidState& s, const std::vector<int>& nodes, Vector direction)
+double plate_rate(const SolidState& s, int plate, Vector direction)
+{
+    const Plate& read = plate_at(s, plate);
+    return dot(read.loaded ? s.loading.of_plate(plate).velocity : read.velocity, direction);
+}
+
+double mean_way_in_space(
+    const Array<double>& moved, const std::vector<int>& nodes, Vector direction)
 {
     if (nodes.empty()) refuse("nodes of a gauge", 0.0, "", "must be at least 1");
     double sum = 0.0;
     for (int node : nodes)
-        sum += dot(way_of(s, node), direction);
+        sum += dot(way_of(moved, node), direction);
     return sum / static_cast<double>(nodes.size());
 }
 

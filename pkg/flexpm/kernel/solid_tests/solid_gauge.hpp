@@ -17,13 +17,17 @@ GaugePoints gauge_points(const SolidState& s, Vector first, Vector second);
 /// Distance of the points when bonded [m].
 double gauge_length(const SolidState& s, const GaugePoints& gauge);
 
-/// How far the points move apart along a unit vector [m].
+/// How far the points move apart along a unit vector, where nodes move so, in the layout of
+/// Grains::displacement [m, or m/s].
 /// @throws std::invalid_argument  if one of them is no node of the specimen
-double gauge_opening(const SolidState& s, const GaugePoints& gauge, Vector direction);
+double opening_in_space(const Array<double>& moved, const GaugePoints& gauge, Vector direction);
 
 /// Way of a plate along a unit vector [m].
 /// @throws std::invalid_argument  if there is no such plate
 double plate_way(const SolidState& s, int plate, Vector direction);
+
+/// What this grows by in a unit of time with the motion that the loading gives [m/s].
+double plate_rate(const SolidState& s, int plate, Vector direction);
 
 /// A section through a specimen: the nodes in a band, and where they lie.
 struct SolidSection {
@@ -35,8 +39,9 @@ struct SolidSection {
 /// @throws std::invalid_argument  if there are none
 SolidSection section_at(const SolidState& s, double place, Vector direction, double half_width);
 
-/// Mean way of nodes along a unit vector [m].
+/// Mean way of nodes along a unit vector, likewise [m, or m/s].
 /// @throws std::invalid_argument  if there are none, or one of them is no node of the specimen
-double mean_way(const SolidState& s, const std::vector<int>& nodes, Vector direction);
+double mean_way_in_space(
+    const Array<double>& moved, const std::vector<int>& nodes, Vector direction);
 
 }  // namespace flexpm

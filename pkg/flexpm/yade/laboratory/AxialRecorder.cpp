@@ -4,6 +4,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
+#include <flexpm/kernel/solid_tests/solid_drive.hpp>
 #include <flexpm/yade/bindings/scales_dict.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
@@ -127,18 +128,22 @@ py::object AxialRecorder::rows() const
 	return flexpm_bindings::copied(values, columns, flexpm_bindings::Access::readOnly);
 }
 
-std::pair<Real, Real> AxialRecorder::measure(const string& column, const flexpm::Assembly& assembly) const
+std::pair<Real, Real> AxialRecorder::measure(const string& column, GrainSolver& solver) const
 {
-	const auto field = flexpm::loading_field(assembly);
-	for (const auto& gauge : gauges) {
-		if (gauge->name == column) return { gauge->reading(assembly), gauge->rate(assembly, field) };
-	}
-	auto own = testFrame().measure(column, assembly, field);
-	if (!own)
-		throw std::invalid_argument(
-		        "AxialRecorder.controlled = " + column + ", must be the name of a gauge, load between parts, or lateral_strain of a rectangle");
-	if (column == "lateral_strain") own->first -= zero[1];
-	return *own;
+	const auto ofState = [&](const auto& state) -> std::pair<Real, Real> {
+		const auto field = flexpm::loading_field(state);
+		for (const auto& gauge : gauges) {
+			if (gauge->name == column) return { gauge->reading(state), gauge->rate(state, field) };
+		}
+		auto own = testFrame().measure(column, state, field);
+		if (!own)
+			throw std::invalid_argument(
+			        "AxialRecorder.controlled = " + column
+			        + ", must be the name of a gauge, load between parts of the plane, cmod of a solid, or lateral_strain between ends");
+		if (column == "lateral_strain") own->first -= zero[1];
+		return *own;
+	};
+	return solver.solid() ? ofState(*solver.solid()) : ofState(solver.forEngines());
 }
 
 py::list AxialRecorder::gaugeList() const

@@ -26,7 +26,7 @@ public:
 	boost::python::list   lostGauges() const;
 	/// What a column of the record that a servo may follow reads now, and what it grows by in a second with the motion of the loading.
 	/// @throws std::invalid_argument  if it is none
-	std::pair<Real, Real> measure(const string& column, const flexpm::Assembly& assembly) const;
+	std::pair<Real, Real> measure(const string& column, GrainSolver& solver) const;
 
 private:
 	/// @throws std::invalid_argument  if there is none
@@ -39,7 +39,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(AxialRecorder, GlobalEngine,
 		"Records stress, strain, cracks and energies of an axial test at each measured step of :yref:`GrainSolver` (its measurePeriod, "
 		"as both must look at the same steps) and stops the simulation when the test is over. Place it after the solver.",
-		((shared_ptr<TestFrame>, frame, shared_ptr<TestFrame>(new RectangleFrame),, "Where load and strains come from: a :yref:`RectangleFrame`, a :yref:`DiscFrame` or a :yref:`PartFrame`; of a solid an :yref:`EndFrame`, a :yref:`SolidDiscFrame` or a :yref:`SolidBeamFrame`."))
+		((shared_ptr<TestFrame>, frame, shared_ptr<TestFrame>(new RectangleFrame),, "Where load and strains come from: a :yref:`RectangleFrame`, a :yref:`DiscFrame` or a :yref:`PartFrame`; of a solid an :yref:`EndFrame`, a :yref:`SolidDiscFrame` or a :yref:`SolidPartFrame`."))
 		((vector<shared_ptr<Gauge>>, gauges,, Attr::hidden, "Readings that the record has, too."))
 		((shared_ptr<LoadingController>, loading,,, "What drives the specimen, for the record of its velocity; None: the velocity factor is 1."))
 		((string, controlled,,, "Column that a :yref:`ServoController` makes follow its set point, which is recorded, too: a gauge's, load, lateral_strain; empty: none."))

@@ -30,9 +30,18 @@ Real Gauge::moved(const flexpm::Assembly& assembly) const
 
 Real Gauge::moved(const flexpm::SolidState& solid) const
 {
+	return plate >= 0 ? flexpm::plate_way(solid, plate, { direction[0], direction[1], direction[2] }) : wayInSpace(solid.grains.displacement);
+}
+
+Real Gauge::wayInSpace(const flexpm::Array<double>& moved) const
+{
 	const flexpm::Vector along = { direction[0], direction[1], direction[2] };
-	if (plate >= 0) return flexpm::plate_way(solid, plate, along);
-	return nodes.empty() ? flexpm::gauge_opening(solid, { first, second }, along) : flexpm::mean_way(solid, nodes, along);
+	return nodes.empty() ? flexpm::opening_in_space(moved, { first, second }, along) : flexpm::mean_way_in_space(moved, nodes, along);
+}
+
+Real Gauge::rate(const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const
+{
+	return perLength(plate >= 0 ? flexpm::plate_rate(solid, plate, { direction[0], direction[1], direction[2] }) : wayInSpace(velocity));
 }
 
 void Gauge::setZero(const flexpm::SolidState& solid) { zero = moved(solid); }

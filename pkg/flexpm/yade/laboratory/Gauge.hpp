@@ -20,6 +20,7 @@ public:
 	/// The same of a solid.
 	void setZero(const flexpm::SolidState& solid);
 	Real reading(const flexpm::SolidState& solid) const;
+	Real rate(const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const;
 	/// What the reading grows by in a second where nodes move at such velocities, and plates as the loading moves them.
 	Real rate(const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const;
 	/// Whether a grain that it reads has been erased.
@@ -32,6 +33,7 @@ private:
 	bool isState() const;
 	/// What nodes move that move so.
 	Real way(const flexpm::Array<double>& moved) const;
+	Real wayInSpace(const flexpm::Array<double>& moved) const;
 	Real perLength(Real moved) const;
 
 public:

@@ -13,12 +13,13 @@ ServoController::~ServoController() = default;
 void ServoController::action()
 {
 	if (!recorder || !ends) throw std::runtime_error("ServoController.recorder or ends = None, must be those of the test");
-	const auto& assembly = GrainSolver::ofScene(*scene)->forEngines();
-	const Real  steps    = assembly.step - seenAt;
+	auto&      solver = *GrainSolver::ofScene(*scene);
+	const long step   = solver.stepsDone();
+	const Real steps  = step - seenAt;
 	if (rate > 0 && steps < period) return;
-	const auto [reading, growing] = recorder->measure(recorder->controlled, assembly);
+	const auto [reading, growing] = recorder->measure(recorder->controlled, solver);
 	const Real growth             = growing * scene->dt;
-	seenAt                        = assembly.step;
+	seenAt                        = step;
 	if (!(rate > 0)) return begin(reading, growth);
 	const auto now = flexpm::servo_after(
 	        { recorder->setPoint, seen, ends->velocityFactor, slope }, { reading, growth, velocityFactor, steps }, { rate, fastest, crossingSteps });

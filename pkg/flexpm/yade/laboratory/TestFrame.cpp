@@ -149,6 +149,12 @@ flexpm::AxialObservation EndFrame::observed(GrainSolver& solver) const
 
 flexpm::TestScales EndFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_scales(solidOf(solver), sense(), dt); }
 
+std::optional<TestFrame::Measure> EndFrame::measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const
+{
+	if (column != "lateral_strain") return {};
+	return Measure { flexpm::lateral_strain(solid, sense()), flexpm::lateral_strain(solid, sense(), velocity) };
+}
+
 flexpm::AxialObservation SolidDiscFrame::observed(GrainSolver& solver) const
 {
 	const auto& state = solidOf(solver);
@@ -164,6 +170,13 @@ flexpm::AxialObservation SolidPartFrame::observed(GrainSolver& solver) const
 }
 
 flexpm::TestScales SolidPartFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_part_scales(solidOf(solver), parts(), strength, dt); }
+
+std::optional<TestFrame::Measure> SolidPartFrame::measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const
+{
+	if (column != "cmod") return {};
+	const flexpm::Mouth mouth { middle, reach };
+	return Measure { flexpm::mouth_opening(solid, mouth), flexpm::mouth_opening(solid, mouth, velocity) };
+}
 
 vector<string> SolidPartFrame::columns() const
 {

@@ -33,6 +33,7 @@ public:
 	virtual vector<Real> values(GrainSolver&, Real, Real) const { return {}; }
 	/// A measure of its own that a servo may follow, where nodes move so; none of that name.
 	virtual std::optional<Measure> measure(const string&, const flexpm::Assembly&, const flexpm::Array<double>&) const { return {}; }
+	virtual std::optional<Measure> measure(const string&, const flexpm::SolidState&, const flexpm::Array<double>&) const { return {}; }
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(TestFrame, Serializable,
@@ -123,6 +124,7 @@ public:
 	~EndFrame() override;
 	flexpm::AxialObservation observed(GrainSolver& solver) const override;
 	flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const override;
+	std::optional<Measure>   measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const override;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(EndFrame, TestFrame,
@@ -157,6 +159,7 @@ public:
 	~SolidPartFrame() override;
 	flexpm::AxialObservation observed(GrainSolver& solver) const override;
 	flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const override;
+	std::optional<Measure>   measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const override;
 	vector<string>           columns() const override;
 	vector<Real>             values(GrainSolver& solver, Real stress, Real strain) const override;
 

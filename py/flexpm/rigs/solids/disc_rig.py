@@ -67,6 +67,9 @@ class SolidDiscRig(EndRig):
         areas = [plate["pressed_area"] for plate in self._solid.plates()]
         return float(np.mean(areas)) / self.built.specimen.dimensions["depth"]
 
+    def _measures(self) -> tuple[str, ...]:
+        return ()
+
     def _new_frame(self) -> wrapper.TestFrame:
         sizes = self.built.specimen.dimensions
         return wrapper.SolidDiscFrame(diameter=sizes["diameter"], depth=sizes["depth"])

@@ -259,6 +259,9 @@ class SolidPartRig(SolidGrains, PartRig):
         self._lines[part.number] = face
         return part
 
+    def _measures(self) -> tuple[str, ...]:
+        return tuple(name for name in PartRig._measures(self) if name != "load")
+
     def _soften(
         self, moved: Sequence[RigPart], unit: tuple[float, float, float], soft: float | None
     ) -> None:
@@ -315,7 +318,9 @@ class SolidPartRig(SolidGrains, PartRig):
 
 def _of_the_plane(call: Callable[..., object]) -> InputError:
     """What says that solids do not have a call."""
-    return InputError(f"{call.__name__}: specimen = a solid, must be plane; lay supports and platens")
+    return InputError(
+        f"{call.__name__}: specimen = a solid, must be plane; lay supports and platens"
+    )
 
 
 def _refuse(call: str, **given: object) -> None:

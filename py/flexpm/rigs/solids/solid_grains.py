@@ -27,7 +27,3 @@ class SolidGrains(GrainRig):
         solver = self.built.solver
         assert isinstance(solver, wrapper.SolidSolver)
         return solver
-
-    def _measures(self) -> tuple[str, ...]:
-        """None: no servo follows a measure of a solid."""
-        return ()
