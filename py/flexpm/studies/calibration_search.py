@@ -29,6 +29,7 @@ from .._vendor import on_path
 from ..arrays import FloatArray
 from ..errors import InputError, SimulationError
 from ..files import Table, output_folder
+from ..kinds.registry import ELASTIC
 from ..materials.keys import is_used
 from ..progress import Progress
 from . import jobs
@@ -48,6 +49,9 @@ _LAST_STEP = 0.005
 _GOOD = 0.2
 #: Relative step for the derivatives of the elastic solve; it is smooth.
 _ELASTIC_STEP = 0.01
+#: Slope of the elastic cost over factors of the keys at which that search ends: a modulus is then
+#: off by less than a hundredth of its tolerance.
+_ELASTIC_SLOPE = 0.1
 
 Values = dict[str, float]
 
@@ -187,6 +191,7 @@ class Search:
             diff_step=_ELASTIC_STEP,
             xtol=1e-4,
             ftol=1e-6,
+            gtol=_ELASTIC_SLOPE,
         )
         return dict(zip(keys, (found.x * start).tolist(), strict=True))
 
@@ -348,19 +353,20 @@ def _jobs(
 ) -> dict[tuple[int, tuple[str, float]], Job]:
     """Runs that the measures of targets need, by seed and test with its confinement [Pa]."""
     material = {} if plan.material is None else {"material": plan.material}
-    common = {
-        **runs.options,
-        **material,
-        "model": plan.model,
-        **{f"set.{key}": value for key, value in values.items()},
-    }
+    common = {**runs.options, **material, "model": plan.model}
+
+    def keys_of(test: str) -> Table:
+        """Values that a test depends on: an elastic solve that is there serves other strengths."""
+        used = plan.of_kind(elastic=True)[1] if test == ELASTIC else values
+        return {f"set.{key}": values[key] for key in used}
+
     wanted = {
         (seed, test): None for t in targets for seed in runs.seeds_of(t) for test in plan.tests(t)
     }
     return {
         (seed, (test, confinement)): jobs.make(
             {
-                **{**common, **runs.of_test.get(test, {})},
+                **{**common, **keys_of(test), **runs.of_test.get(test, {})},
                 **{"test": test, "confinement": confinement, "seed": seed},
             },
             plan.base,

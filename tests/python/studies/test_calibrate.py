@@ -157,6 +157,19 @@ def test_the_search_meets_targets_on_the_full_specimen(tmp_path, monkeypatch):
     assert (tmp_path / "known.png").stat().st_size > 10_000
 
 
+def test_an_elastic_solve_serves_all_strengths(tmp_path):
+    text = GOOD.replace("direct_tensile_strength = 6e6", "youngs_modulus = 25.8e9")
+    plan = plan_of(tmp_path, text.replace("[free]", "[free]\nyoung = [20e9, 40e9]"))
+    values = {"young": 27e9, "tensile_strength": 5e6, "cohesion": 20e6}
+    keys = []
+    for strength in (5e6, 6e6):
+        values["tensile_strength"] = strength
+        made = calibration_search._jobs(plan, plan.screen, values, plan.targets)
+        keys.append({test: job.key for (_, (test, _)), job in made.items()})
+    assert keys[0]["elastic"] == keys[1]["elastic"]
+    assert keys[0]["uniaxial"] != keys[1]["uniaxial"]
+
+
 def test_discs_may_have_packings_of_their_own(tmp_path, monkeypatch):
     monkeypatch.setattr(calibration_search, "Pool", MadeUp)
     text = GOOD.replace("seeds = [5, 6]", "seeds = [5, 6]\ndisc_seeds = [7, 8, 9]")

@@ -135,10 +135,6 @@ EndForces ends_of(const SolidState& s, const PartGeometry& parts)
     return { push(s, parts.holding, parts.holding_sets, parts.direction), top };
 }
 
-}  // namespace
-
-namespace {
-
 Plate plate_before(const SolidState& s, const SolidPatch& patch)
 {
     check_not_negative("friction of a plate", patch.friction, "");

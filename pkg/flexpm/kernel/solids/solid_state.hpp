@@ -345,7 +345,7 @@ struct SolidState {
     std::vector<RigidBody> bodies;  ///< of each grain; empty: all deform
     FaceContacts contacts;
     SurfaceTriangles surface;
-    std::vector<Plate> plates;  ///< on ends of rigid grains; facets are surface triangles
+    std::vector<Plate> plates;  ///< before parts of the outside; facets are surface triangles
     std::vector<NodeSet> node_sets;
     std::vector<HeldFace> held_faces;
     EnergyLedger ledger;

@@ -71,8 +71,13 @@ class SolidPartRig(SolidGrains, PartRig):
             leaves: What the test leaves, as for `flexpm.rig`.
 
         Raises:
-            InputError: as `PartRig`.
+            InputError: as `PartRig`, and for real masses, with which parts would set off waves.
         """
+        if built.dynamic:
+            raise InputError(
+                "SolidPartRig: dynamic = True, must be False for a solid, whose parts move slowly; "
+                "build it with scaled masses"
+            )
         self._lines: dict[int, list[list[float]]] = {}
         super().__init__(built, kind=kind, runner=runner, **leaves)
 
