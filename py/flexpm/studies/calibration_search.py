@@ -49,8 +49,8 @@ _LAST_STEP = 0.005
 _GOOD = 0.2
 #: Relative step for the derivatives of the elastic solve; it is smooth.
 _ELASTIC_STEP = 0.01
-#: Slope of the elastic cost over factors of the keys at which that search ends: a modulus is then
-#: off by less than a hundredth of its tolerance.
+#: Slope of the elastic cost over factors of the keys, at which a modulus is off by less than a
+#: hundredth of its tolerance.
 _ELASTIC_SLOPE = 0.1
 
 Values = dict[str, float]
@@ -355,8 +355,7 @@ def _jobs(
     material = {} if plan.material is None else {"material": plan.material}
     common = {**runs.options, **material, "model": plan.model}
 
-    def keys_of(test: str) -> Table:
-        """Values that a test depends on: an elastic solve that is there serves other strengths."""
+    def keys_of(test: str) -> Table:  # an elastic solve that is there serves other strengths
         used = plan.of_kind(elastic=True)[1] if test == ELASTIC else values
         return {f"set.{key}": values[key] for key in used}
 
