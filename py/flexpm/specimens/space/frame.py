@@ -6,6 +6,7 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from yade import utils, wrapper
@@ -72,8 +73,12 @@ class SolidFrame:
 
     def has_inside(self, place: FloatArray) -> bool:
         """Whether a place x, y, z is inside."""
-        walls = self.solid().walls
-        return bool(np.all(walls[:, :3] @ place < walls[:, 3]))
+        return bool(np.all(self._walls[:, :3] @ place < self._walls[:, 3]))
+
+    @cached_property
+    def _walls(self) -> FloatArray:
+        walls: FloatArray = self.solid().walls  # a mantle has hundreds, each place asks for them
+        return walls
 
     def _mantle(self, material: wrapper.Material) -> list[wrapper.Body]:
         walls = self.solid().walls
