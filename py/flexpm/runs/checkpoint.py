@@ -34,6 +34,9 @@ from .run_spec import RunSpec
 
 #: Wall time between two checkpoints [s].
 INTERVAL = 30.0
+#: The same over the time that one takes beyond a second, if that is longer: of large specimens
+#: they are gigabytes.
+_PAUSE = 20.0
 _NAME = "checkpoint.json"
 #: YADE's plain binary archive: compressing it takes longer than writing it.
 _SCENE = "checkpoint-{step}.bin"
@@ -104,7 +107,7 @@ class Checkpoint:
         require_number("run: checkpoint_interval", interval, POSITIVE, "s")
         self._folder, self._interval = folder, interval
         self._build, self._inputs = _build(spec), spec.to_json()
-        self._saved = time.monotonic()
+        self._saved, self._took = time.monotonic(), 0.0
         self._scene: Path | None = None
         self.position = Position()
         self.resumed_at: int | None = None
@@ -121,7 +124,7 @@ class Checkpoint:
     @property
     def due(self) -> bool:
         """Whether it is time to save."""
-        return time.monotonic() - self._saved > self._interval
+        return time.monotonic() - self._saved > max(self._interval, _PAUSE * (self._took - 1.0))
 
     def restore(self) -> None:
         """Replace YADE's scene by the saved one.
@@ -139,6 +142,7 @@ class Checkpoint:
         Raises:
             OSError: if the disk does not take it; an earlier checkpoint is left as it was.
         """
+        begin = time.monotonic()
         scene = self._folder / _SCENE.format(step=yade.O.iter)
         if scene == self._scene:  # the file that checkpoint.json names must stay as it is
             scene = scene.with_suffix(".1.bin")
@@ -155,6 +159,7 @@ class Checkpoint:
             about[_CHECKSUM] = _checksum(about, temporary)
         write_text(self._folder / _NAME, json_text(about))
         self._scene, self._saved = scene, time.monotonic()
+        self._took = self._saved - begin
         self._remove_others(scene)
 
     def release(self) -> None:
