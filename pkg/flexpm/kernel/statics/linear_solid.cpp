@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/statics/linear_solid.hpp>
 
+#include <algorithm>
+#include <utility>
+
 namespace flexpm {
 
 namespace {
@@ -63,6 +66,15 @@ Vector way_before(const LinearSolid::Press& p, const double* u)
 
 }  // namespace
 
+LinearSolid::Spring spring_at(double area, std::vector<double> shares)
+{
+    const auto whole = std::find(shares.begin(), shares.end(), 1.0);
+    const auto none = std::count(shares.begin(), shares.end(), 0.0);
+    if (whole == shares.end() || none + 1 != static_cast<std::ptrdiff_t>(shares.size()))
+        return { area, -1, std::move(shares) };
+    return { area, static_cast<int>(whole - shares.begin()), {} };
+}
+
 void LinearSolid::add(const double* u, double* forces) const
 {
     for (const Element& e : elements) {
@@ -83,6 +95,14 @@ void LinearSolid::add(const double* u, double* forces) const
         const std::size_t corners = face.nodes[0].size();
         for (const Spring& s : face.springs) {
             Vector jump;
+            if (s.corner >= 0) {  // as below, without what is 0
+                const int first = face.nodes[0][s.corner], second = face.nodes[1][s.corner];
+                jump = jump + (triple_at(u, second) - triple_at(u, first));
+                const Vector force = spring_force(face, s, jump);
+                add_triple(forces, second, force);
+                add_triple(forces, first, -force);
+                continue;
+            }
             for (std::size_t k = 0; k < corners; ++k)
                 jump = jump
                     + s.shares[k]
@@ -130,9 +150,9 @@ std::vector<SpaceGradient> LinearSolid::diagonal_blocks() const
     for (const Face& face : faces) {
         for (const Spring& s : face.springs) {
             const SpaceGradient block = spring_block(face, s);
-            for (int side = 0; side < 2; ++side)
-                for (std::size_t k = 0; k < s.shares.size(); ++k)
-                    add_block(blocks[face.nodes[side][k]], s.shares[k] * s.shares[k], block);
+            for (const auto& nodes : face.nodes)
+                for (int k = 0; k < static_cast<int>(nodes.size()); ++k)
+                    add_block(blocks[nodes[k]], s.share(k) * s.share(k), block);
         }
     }
     for (const Press& p : presses)
@@ -182,8 +202,8 @@ std::vector<SpaceGradient> RigidSolid::diagonal_blocks() const
             const SpaceGradient block = spring_block(face, s);
             for (const auto& nodes : face.nodes) {
                 Vector place;
-                for (std::size_t k = 0; k < s.shares.size(); ++k)
-                    place = place + s.shares[k] * solid.places[nodes[k]];
+                for (int k = 0; k < static_cast<int>(nodes.size()); ++k)
+                    place = place + s.share(k) * solid.places[nodes[k]];
                 add_to(grain[nodes[0]], place, block);
             }
         }

@@ -16,9 +16,13 @@ struct LinearSolid : LinearForces {
         TetrahedronShape shape;
         int kind;  ///< index into `kinds`
     };
+    /// A point of a face, most of which lie at a corner.
     struct Spring {
         double area;
-        std::vector<double> shares;  ///< of the corners
+        int corner;                  ///< where it lies; -1: at none
+        std::vector<double> shares;  ///< of the corners; empty at one
+
+        double share(int k) const { return corner < 0 ? shares[k] : corner == k ? 1.0 : 0.0; }
     };
     struct Face {
         std::array<std::vector<int>, 2> nodes;  ///< corners of both sides
@@ -52,6 +56,9 @@ struct LinearSolid : LinearForces {
     /// then. By their numbers; 0 of others.
     std::vector<double> floating_ways(const double* u) const;
 };
+
+/// Spring of a point, by the shares of the corners in its place.
+LinearSolid::Spring spring_at(double area, std::vector<double> shares);
 
 inline Vector triple_at(const double* u, int node)
 {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace flexpm {
@@ -116,8 +117,8 @@ Grains make_grains(const Polyhedra& cells, const SolidElasticities& materials, F
         const FacePoints points = face_points(places, rule);
         face.normal = points.normal;
         for (const FacePoint& p : points.points)
-            face.springs.push_back({ p.area, p.shares });
-        solid.faces.push_back(face);
+            face.springs.push_back(spring_at(p.area, p.shares));
+        solid.faces.push_back(std::move(face));
     }
     return g;
 }

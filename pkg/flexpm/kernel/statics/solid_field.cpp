@@ -7,6 +7,7 @@
 #include <flexpm/kernel/statics/linear_solid.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace flexpm {
 
@@ -36,6 +37,7 @@ void add_elements(const SolidState& s, const NodeNumbers& numbers, LinearSolid& 
     if (!s.bodies.empty()) return;  // rigid grains need no modulus
     for (const ElasticMaterial& m : s.grains.elastic)
         solid.kinds.push_back(solid_stiffness(m));
+    solid.elements.reserve(static_cast<std::size_t>(s.tetrahedra.batches()) * lanes);
     for (int g = 0; g < s.grains.count; ++g) {
         if (s.grains.is_rigid(g)) continue;
         for_each_tetrahedron(
@@ -50,23 +52,26 @@ void add_elements(const SolidState& s, const NodeNumbers& numbers, LinearSolid& 
 void add_faces(const SolidState& s, const NodeNumbers& numbers, LinearSolid& solid)
 {
     const FaceContacts& c = s.contacts;
+    solid.faces.reserve(c.count);
     for (int contact = 0; contact < c.count; ++contact) {
         LinearSolid::Face face;
         face.normal = bonded_frame(s, contact).normal;
         face.normal_stiffness = c.law_of(contact).normal_stiffness;
         face.shear_stiffness = c.law_of(contact).shear_stiffness;
         const int corners = c.corners_of(contact);
+        face.springs.reserve(c.points_of(contact));
         for (int side = 0; side < 2; ++side)
             for (int k = 0; k < corners; ++k)
                 face.nodes[side].push_back(
                     numbers.of(c.pairs[contact][side], c.node(contact, side, k)));
         for (int p = 0; p < c.points_of(contact); ++p) {
-            LinearSolid::Spring spring { c.area(contact, p), {} };
+            std::vector<double> shares;
+            shares.reserve(corners);
             for (int k = 0; k < corners; ++k)
-                spring.shares.push_back(c.share(contact, p, k));
-            face.springs.push_back(spring);
+                shares.push_back(c.share(contact, p, k));
+            face.springs.push_back(spring_at(c.area(contact, p), std::move(shares)));
         }
-        solid.faces.push_back(face);
+        solid.faces.push_back(std::move(face));
     }
 }
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Forces of points that lie at corners are those of their shares, to the bit.
+#include "support/catch.hpp"
+
+#include <flexpm/kernel/statics/linear_solid.hpp>
+#include <flexpm/kernel/statics/solid_field.hpp>
+
+#include "solids/solid_states.hpp"
+
+using namespace solid_states;
+
+TEST_CASE("A spring knows the corner that it lies at", "[solids]")
+{
+    const auto at = spring_at(2.0, { 0.0, 0.0, 1.0, 0.0 });
+    CHECK(at.corner == 2);
+    CHECK(at.shares.empty());
+    CHECK((at.share(2) == 1.0 && at.share(0) == 0.0));
+    for (const auto& shares : { std::vector<double> { 1e-17, 0.0, 1.0 }, { 1.0, 1.0, 0.0 },
+             { 0.5, 0.5, 0.0 }, { 1.0, 0.25, -0.25 } }) {
+        CHECK(spring_at(2.0, shares).corner == -1);
+        CHECK(spring_at(2.0, shares).shares == shares);
+    }
+}
+
+TEST_CASE("Forces of points at corners are those of their shares to the bit", "[solids]")
+{
+    const Packing p = packing(40, 6);
+    const SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner));
+    const LinearSolid known = linear_solid(s);
+    LinearSolid spelled = known;
+    int at_corners = 0, others = 0;
+    for (LinearSolid::Face& face : spelled.faces) {
+        for (LinearSolid::Spring& spring : face.springs) {
+            ++(spring.corner < 0 ? others : at_corners);
+            if (spring.corner < 0) continue;
+            spring.shares.assign(face.nodes[0].size(), 0.0);
+            spring.shares[spring.corner] = 1.0;
+            spring.corner = -1;
+        }
+    }
+    CHECK(at_corners > 3 * others);
+    REQUIRE(others > 0);
+    Random random(4);
+    std::vector<double> u(3 * known.places.size());
+    for (double& value : u)
+        value = random.next() - 0.5;
+    std::vector<double> forces(u.size(), 0.0), wanted(u.size(), 0.0);
+    known.add(u.data(), forces.data());
+    spelled.add(u.data(), wanted.data());
+    CHECK(forces == wanted);
+    const auto blocks = known.diagonal_blocks(), as = spelled.diagonal_blocks();
+    bool same = blocks.size() == as.size();
+    for (std::size_t n = 0; same && n < blocks.size(); ++n)
+        same =
+            blocks[n].x.x == as[n].x.x && blocks[n].y.z == as[n].y.z && blocks[n].z.z == as[n].z.z;
+    CHECK(same);
+}
