@@ -74,6 +74,11 @@ class PartRig(PartColumns, PartExcavation):
                 f"{self._call}: specimen = {built.specimen.kind}, must be {must} is for this one"
             )
         rates_of(kind, built.name, solid=self._of_solids)
+        if self._of_solids and built.dynamic:
+            raise InputError(
+                f"{self._call}: dynamic = True, must be False for a solid, whose parts move "
+                "slowly; build it with scaled masses"
+            )
         kept = KeptTest.of(built, self._call, leaves, kind=kind)
         super().__init__(built, runner=runner if kept is None else kept.runner)
         self.disc = False

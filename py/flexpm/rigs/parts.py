@@ -58,6 +58,13 @@ class RigPart:
     def _vector(self, name: str) -> tuple[float, ...]:
         return tuple(float(one) for one in self._now[name])
 
+    def _number(self, name: str) -> float:
+        """A trait that parts of the plane alone may have, or raise InputError."""
+        now = self._now
+        if name not in now:
+            raise InputError(f"part: {name} of {self}, has none in space")
+        return float(now[name])
+
 
 @dataclass(frozen=True, eq=False)
 class Part(RigPart):
@@ -72,9 +79,7 @@ class Part(RigPart):
         Raises:
             InputError: in space, where a plate has an area.
         """
-        if "width" not in self._now:
-            raise InputError(f"part: width of {self}, has none in space; ask for its area")
-        return float(self._now["width"])
+        return self._number("width")
 
     @property
     def area(self) -> float:
@@ -89,17 +94,17 @@ class Part(RigPart):
     @property
     def contact_angle(self) -> float:
         """Over which a disc lies against a jaw, about the disc's centre [rad]; else 0."""
-        return float(self._now["contact_angle"])
+        return self._number("contact_angle")
 
     @property
     def angle(self) -> float:
         """Turn of a seated one, counter-clockwise, 0 when square to its normal [rad]."""
-        return float(self._now["angle"])
+        return self._number("angle")
 
     @property
     def machine_energy(self) -> float:
         """Stored in the spring between it and its crosshead, see `PartRig.drive` [J]."""
-        return 0.5 * float(self._now["machine"]) * float(self._now["machine_give"]) ** 2
+        return 0.5 * self._number("machine") * self._number("machine_give") ** 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +123,7 @@ class HeldNodes(RigPart):
         Raises:
             InputError: in space, where sets do not turn.
         """
-        return self._of_the_plane("moment")
+        return self._number("moment")
 
     @property
     def angle(self) -> float:
@@ -127,7 +132,7 @@ class HeldNodes(RigPart):
         Raises:
             InputError: in space, where sets do not turn.
         """
-        return self._of_the_plane("angle")
+        return self._number("angle")
 
     @property
     def nodes(self) -> list[int]:
@@ -142,11 +147,6 @@ class HeldNodes(RigPart):
     @property
     def _is_in_space(self) -> bool:
         return len(self._now["place"]) == len(SPACE)
-
-    def _of_the_plane(self, name: str) -> float:
-        if self._is_in_space:
-            raise InputError(f"part: {name} of {self}, has none in space, where sets do not turn")
-        return float(self._now[name])
 
     def move(self, velocity: Place | None = None, spin: float = 0.0) -> None:
         """Move them from the next step on, whatever the rig's loading does.

@@ -170,7 +170,7 @@ def test_what_is_wrong_is_refused(box):
         (lambda: rig.support((0.006, 0.006, 0.0), -1.0), "length = -1.0 m, must be > 0"),
         (lambda: rig.support((0.006, 0.006, 0.0), bonded=True), "length = None, must be given"),
         (lambda: rig.support((0.0, 0.006, 0.006), normal=(1, 0, 0)), "must be along z"),
-        (lambda: rig.support((0.0, 0.006, 0.009)), "triangles at x = 0 m, z = 0.009 m = 0"),
+        (lambda: rig.support((0.0, 0.006, 0.008)), "triangles at x = 0 m, z = 0.008 m = 0"),
         (lambda: rig.hold(), "region = none or several, must be one of box, ball and where"),
         (lambda: rig.turn([]), "turn: specimen = a solid, must be plane"),
         (lambda: rig.drive(top, (0, -1)), "must be x, y and z"),
@@ -179,12 +179,21 @@ def test_what_is_wrong_is_refused(box):
             "machine = 100000000.0, must be left out",
         ),
         (lambda: rig.drive(top, (0, 0, 1), against=base) or rig.load(), "pulls without bond"),
-        (lambda: top.width, "has none in space"),
+        (lambda: top.width, "width of platen at .* has none in space"),
+        (lambda: top.contact_angle, "contact_angle of platen at .* has none in space"),
+        (lambda: rig.angle_of("turn", top), "angle_of: specimen = a solid, must be plane"),
+        (lambda: rig.platen(2), "lies there already, must be apart"),
+        (lambda: rig.support((0.006, 0.006, 0.0), 0.003), "lies there already, must be apart"),
+        (lambda: rig.support((0.006, 0.006, 0.0)), "lies there already, must be apart"),
         (lambda: flexpm.PartRig(rig.built), "must be plane; flexpm.SolidPartRig"),
     ]
     for call, told in refused:
         with pytest.raises(InputError, match=told):
             call()
+    yade.O.reset()
+    spheres = flexpm.build(box, model="jcfpm")
+    with pytest.raises(InputError, match="test of model jcfpm = 'own', must be one of"):
+        flexpm.SolidPartRig(spheres)
     yade.O.reset()
     waves = flexpm.build(box, MATERIAL, "flexible", dynamic=True)
     with pytest.raises(InputError, match="dynamic = True, must be False for a solid"):

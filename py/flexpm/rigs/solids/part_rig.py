@@ -25,6 +25,7 @@ from ..parts import Part, RigPart
 from ..places import SPACE, Place, Vector, require_direction, require_vector
 from .patches import (
     BOTTOM,
+    INWARDS,
     TOP,
     Patch,
     box_around,
@@ -73,12 +74,7 @@ class SolidPartRig(SolidGrains, PartRig):
         Raises:
             InputError: as `PartRig`, and for real masses, with which parts would set off waves.
         """
-        if built.dynamic:
-            raise InputError(
-                "SolidPartRig: dynamic = True, must be False for a solid, whose parts move slowly; "
-                "build it with scaled masses"
-            )
-        self._lines: dict[int, list[list[float]]] = {}
+        self._patches: dict[int, Patch] = {}
         super().__init__(built, kind=kind, runner=runner, **leaves)
 
     def support(
@@ -160,6 +156,14 @@ class SolidPartRig(SolidGrains, PartRig):
         """Refuse it: of the plane alone. ``flexpm run brazilian --jaw-radius`` has it."""
         raise _of_the_plane(self.jaw)
 
+    def contact_of(self, *_: object, **__: object) -> NoReturn:
+        """Refuse it: of jaws, in the plane alone."""
+        raise _of_the_plane(self.contact_of)
+
+    def angle_of(self, *_: object, **__: object) -> NoReturn:
+        """Refuse it: of seats, in the plane alone."""
+        raise _of_the_plane(self.angle_of)
+
     def turn(self, *_: object, **__: object) -> NoReturn:
         """Refuse it: of the plane alone."""
         raise _of_the_plane(self.turn)
@@ -199,7 +203,7 @@ class SolidPartRig(SolidGrains, PartRig):
                 "part": "plate",
                 **{name: one[name] for name in names},
                 "place": before(one),
-                "face": self._lines.get(number, []),
+                "face": self._patches[number].trace if number in self._patches else [],
             }
             for number, one in enumerate(self._solid.plates())
         ]
@@ -236,12 +240,13 @@ class SolidPartRig(SolidGrains, PartRig):
         side = BOTTOM if above > 0.0 else TOP
         width = _WIDTH * self._specimen.mean_diameter
         values = (side, at[0], at[2], width, pinned)
-        face = [[at[0] + sign * 0.5 * width, at[2]] for sign in (-1.0, 1.0)]
+        place = (at[0], 0.5 * (low[1] + high[1]), at[2])
+        edges = np.array([width, high[1] - low[1], width])
         return self._lay(
             "support",
             lambda: self._solid.findLine(*values),
             lambda: self._solid.layLine(*values),
-            face,
+            patch_around(self._specimen, place, edges, np.array(INWARDS[side])),
         )
 
     def _patch(self, kind: str, patch: Patch, friction: float, bonded: bool) -> Part:
@@ -250,7 +255,7 @@ class SolidPartRig(SolidGrains, PartRig):
             kind,
             lambda: self._solid.findPatch(*values),
             lambda: self._solid.layPatch(*values),
-            patch.trace,
+            patch,
         )
 
     def _lay(
@@ -258,10 +263,17 @@ class SolidPartRig(SolidGrains, PartRig):
         kind: str,
         find: Callable[[], int],
         lay: Callable[[], int],
-        face: list[list[float]],
+        patch: Patch,
     ) -> Part:
+        """Lay a plate before a patch that no other one has."""
+        for number, there in self._patches.items():
+            if patch.overlaps(there):
+                other = Part(self, self.built.solver, "plate", number)
+                raise InputError(
+                    f"{kind}: part = {other}, lies there already, must be apart; take another place"
+                )
         part = self._plate(kind, find, lay)
-        self._lines[part.number] = face
+        self._patches[part.number] = patch
         return part
 
     def _measures(self) -> tuple[str, ...]:

@@ -32,6 +32,8 @@ FLAT = {
 }
 #: Axis across the section that maps draw.
 _DEPTH = 1
+#: Cosine from which on normals are along each other, and part of a patch that is an edge [-].
+_SAME, _EDGE = 1.0 - 1e-6, 1e-6
 #: What of a side is off its plane, at most, in mean diameters of the grains [-].
 _OFF = 0.5
 
@@ -44,6 +46,14 @@ class Patch:
     low: Vector  #: corners of the box [m]
     high: Vector
     trace: list[list[float]]  #: line along x and z, none if it faces y; for maps [m]
+
+    def overlaps(self, other: Patch) -> bool:
+        """Whether both face the same way and have more than an edge in common."""
+        if np.dot(self.normal, other.normal) < _SAME:
+            return False
+        low, high = np.maximum(self.low, other.low), np.minimum(self.high, other.high)
+        least = np.minimum(np.subtract(self.high, self.low), np.subtract(other.high, other.low))
+        return bool(np.all(high - low > _EDGE * least))
 
 
 def box_around(specimen: SolidSpecimen) -> tuple[FloatArray, FloatArray]:
@@ -75,7 +85,9 @@ def side_patch(specimen: SolidSpecimen, side: int) -> Patch:
     normal = np.array(INWARDS[side])
     across = int(np.argmax(np.abs(normal)))
     place[across] = (low if normal[across] > 0.0 else high)[across]
-    return patch_around(specimen, place, high - low, normal)
+    edges = high - low
+    edges[across] = 0.0
+    return patch_around(specimen, place, edges, normal)
 
 
 def patch_around(
