@@ -126,7 +126,9 @@ def describe(made: SolidSpecimen, folder: Path) -> None:
 
     found, cells = made.statistics(), made.cells
     pairs, outer = cells.faces[: cells.contacts, :2], cells.faces[cells.contacts :, 0]
-    shape = SolidShape(*made.tetrahedra(), cells.vertices, made.contact_polygons(), pairs)
+    ends = cells.face_offsets[: cells.contacts + 1]
+    corners = cells.face_vertices[: ends[-1]]
+    shape = SolidShape(*made.tetrahedra(), cells.vertices, corners, ends, pairs)
     write_text(folder / "specimen.json", json_text(found))
     made.save(folder / "solid.json")
     write_solid_vtu(folder / "specimen.vtu", shape)

@@ -1,15 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """States of solids: the plane through them, what hangs together, files and tables with z."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from solid_state import sample
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import yade
 
 from flexpm import Specimen
+from flexpm.results.arrays import vtu_arrays
 from flexpm.results.cracks import cracks_csv, cracks_from_snapshot, read_cracks
 from flexpm.results.emission import EventRule, events_csv, find_events, read_events
 from flexpm.results.record import Curve
 from flexpm.results.snapshot import triangle_areas
+from flexpm.results.solids import state as solid_state_module
 from flexpm.results.vtu import read_state, read_vtu, write_vtu
 
 
@@ -78,6 +86,51 @@ def test_a_file_of_a_state_reads_back(box, tmp_path):
     # what reads files of the plane sees the section
     plane = read_vtu(tmp_path / "a.vtu")
     assert triangle_areas(plane).sum() == pytest.approx(0.012 * 0.018, rel=1e-9)
+
+
+def test_a_file_is_written_in_turn_as_vtk_writes_it_at_once(box, tmp_path):
+    """Array by array, to the byte: of numbers that are none, texts, and arrays without a unit."""
+    state = sample(box, strain=0.01)
+    draw = np.random.default_rng(2)
+    state = dataclasses.replace(
+        state,
+        velocities=draw.normal(size=state.velocities.shape),
+        tetrahedron_stress=draw.normal(size=state.tetrahedron_stress.shape),
+        grain_mineral=np.arange(len(state.volumes)) % 3,
+    )
+    about = {"test": "uniaxial", "seed": 3, "confinement": 0.0, "none": None}
+    for told in (about, {}):
+        write_vtu(tmp_path / "in_turn.vtu", state, told)
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(tmp_path / "in_turn.vtu"))
+        reader.Update()
+        assert reader.GetOutput().GetNumberOfCells() == len(state.tetrahedra) + len(state.contact)
+        vtu_arrays.write_grid(tmp_path / "at_once.vtu", reader.GetOutput())
+        assert (tmp_path / "in_turn.vtu").read_bytes() == (tmp_path / "at_once.vtu").read_bytes()
+
+
+def test_arrays_of_a_state_stay_when_its_solver_has_gone(box):
+    built = flexpm.build(box)
+    first, second = built.snapshot(), built.snapshot()
+    kept = first.positions.copy()
+    del built
+    yade.O.reset()
+    second.positions[:] = 0.0
+    assert np.array_equal(first.positions, kept)
+    assert first.positions.flags.writeable
+    assert first.crack_step.dtype == np.int64
+
+
+def test_principal_stresses_do_not_depend_on_how_many_are_taken_at_once(box, monkeypatch):
+    state = sample(box, strain=0.01)
+    state.tetrahedron_stress[:] = np.random.default_rng(2).normal(
+        size=state.tetrahedron_stress.shape
+    )
+    whole = state.principal_stresses
+    monkeypatch.setattr(solid_state_module, "_AT_ONCE", 7)
+    assert np.array_equal(state.principal_stresses, whole)
+    state.tetrahedron_stress[3, 2] = np.nan
+    assert np.all(np.isnan(state.principal_stresses))
 
 
 def test_tables_have_z_and_read_back(box, tmp_path):

@@ -49,14 +49,19 @@ def written(writer: vtkXMLUnstructuredGridWriter) -> bytes:
 
 def write_grid(path: Path | str, grid: vtkUnstructuredGrid) -> None:
     """Write a grid, whole or not at all."""
+    content = content_of(grid)
+    with whole_file(path) as temporary:
+        temporary.write_bytes(content)
+
+
+def content_of(grid: vtkUnstructuredGrid) -> bytes:
+    """Content of the file of a grid."""
     writer = vtkXMLUnstructuredGridWriter()
     writer.SetInputData(grid)
     # as text: raw data are no XML, and VTK up to 9.2 reads none with expat 2.6 or its backports
     writer.SetDataModeToBinary()
     writer.SetCompressorTypeToLZ4()
-    content = written(writer)
-    with whole_file(path) as temporary:
-        temporary.write_bytes(content)
+    return written(writer)
 
 
 def joined(first: dict[str, Named], second: dict[str, Named]) -> dict[str, Named]:
@@ -90,12 +95,17 @@ def describe(data: vtkFieldData, name: str, value: object) -> None:
 
 def add(data: vtkDataSetAttributes, name: str, array: Named) -> None:
     """Add an array with its unit and the names of its components."""
+    data.AddArray(made(name, array))
+
+
+def made(name: str, array: Named) -> vtkDataArray:
+    """VTK's array of a name, with its unit and the names of its components."""
     values, components = array
     if np.issubdtype(values.dtype, np.integer):
         values = values.astype(np.int32)
-    made = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-    made.SetName(name)
-    made.GetInformation().Set(vtkDataArray.UNITS_LABEL(), UNITS.get(name, "-"))
+    found: vtkDataArray = numpy_to_vtk(np.ascontiguousarray(values))
+    found.SetName(name)
+    found.GetInformation().Set(vtkDataArray.UNITS_LABEL(), UNITS.get(name, "-"))
     for number, component in enumerate(components):
-        made.SetComponentName(number, component)
-    data.AddArray(made)
+        found.SetComponentName(number, component)
+    return found

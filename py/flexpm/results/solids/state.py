@@ -23,6 +23,8 @@ _PLANE = (0, 2)
 _IN_PLANE = (0, 2, 4)
 #: Edges of a tetrahedron by its corners.
 _EDGES = np.array([(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)])
+#: Tetrahedra whose stresses are matrices at the same time.
+_AT_ONCE = 100_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,11 +109,12 @@ class SolidSnapshot:
     @property
     def principal_stresses(self) -> FloatArray:
         """Those of each tetrahedron, the smallest first, (M, 3) [Pa]; nan if any is no number."""
-        rows = [0, 5, 4, 5, 1, 3, 4, 3, 2]
-        matrices = self.tetrahedron_stress[:, rows].reshape(-1, 3, 3)
-        if not np.all(np.isfinite(matrices)):
-            return np.full((len(matrices), 3), np.nan)
-        found: FloatArray = np.linalg.eigvalsh(matrices)
+        rows, stress = [0, 5, 4, 5, 1, 3, 4, 3, 2], self.tetrahedron_stress
+        found = np.full((len(stress), 3), np.nan)
+        if np.all(np.isfinite(stress)):
+            for begin in range(0, len(stress), _AT_ONCE):  # as matrices they take three times more
+                part = slice(begin, begin + _AT_ONCE)
+                found[part] = np.linalg.eigvalsh(stress[part, rows].reshape(-1, 3, 3))
         return found
 
     @property
@@ -183,7 +186,9 @@ class SolidSnapshot:
         self, side: FloatArray
     ) -> tuple[tuple[IntArray, FloatArray], IntArray, IntArray]:
         """Nodes of a section, each between two nodes, its triangles, and their tetrahedra."""
-        nodes = self.tetrahedra[:, _EDGES]  # (M, 6, 2)
+        below = (side < 0.0)[self.tetrahedra]
+        cut = np.flatnonzero(np.any(below, axis=1) & ~np.all(below, axis=1))  # few of many
+        nodes = self.tetrahedra[cut][:, _EDGES]  # (c, 6, 2)
         away = side[nodes]
         crossed = (away[..., 0] < 0.0) != (away[..., 1] < 0.0)
         count = crossed.sum(axis=1)
@@ -195,7 +200,7 @@ class SolidSnapshot:
         owner = np.concatenate([three, four, four])
         ends = np.sort(nodes[owner[:, None], chosen], axis=2).reshape(-1, 2)
         ends, numbers = np.unique(ends, axis=0, return_inverse=True)
-        return (ends, _shares(side[ends])), numbers.reshape(-1, 3), owner
+        return (ends, _shares(side[ends])), numbers.reshape(-1, 3), cut[owner]
 
     def _between(self, corners: tuple[IntArray, FloatArray], values: FloatArray) -> FloatArray:
         """Values of nodes at corners of a section, the components in its plane."""

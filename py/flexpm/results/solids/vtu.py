@@ -6,32 +6,18 @@ Stress, traction and opening are positive in tension.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import (
-    VTK_POLYGON,
-    VTK_TETRA,
-    vtkCellArray,
-    vtkUnstructuredGrid,
-)
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkDataArray
+from vtkmodules.vtkCommonDataModel import VTK_POLYGON, VTK_TETRA
 
 from ...arrays import FloatArray, IntArray
-from ..arrays.vtu_arrays import (
-    CONTACT,
-    GRAIN,
-    TENSOR,
-    VECTOR,
-    Named,
-    add,
-    describe,
-    joined,
-    write_grid,
-)
+from ..arrays.in_turn import GridInTurn, write_in_turn
+from ..arrays.vtu_arrays import CONTACT, GRAIN, TENSOR, VECTOR, Named, made
 from ..arrays.vtu_reader import Arrays, Grid
 from .state import SolidSnapshot
 
@@ -48,7 +34,8 @@ class SolidShape:
         tetrahedra: Four nodes each (m, 4).
         grains: Grain of each tetrahedron (m,).
         vertices: Places of the corners of contacts (k, 3) [m].
-        contacts: Vertices of each contact, counter-clockwise from outside its first grain.
+        corners: Vertices of contact after contact, counter-clockwise from outside its first grain.
+        ends: First corner of each contact, and the end (c + 1,).
         pairs: Both grains of each contact (c, 2).
     """
 
@@ -56,7 +43,8 @@ class SolidShape:
     tetrahedra: IntArray
     grains: IntArray
     vertices: FloatArray
-    contacts: Sequence[IntArray]
+    corners: IntArray
+    ends: IntArray
     pairs: IntArray
 
 
@@ -70,33 +58,47 @@ def write_solid_vtu(path: Path | str, shape: SolidShape) -> None:
         path: Name of the file, ending in .vtu.
         shape: The solid.
     """
-    write_grid(path, _grid_of(shape))
+    write_in_turn(path, _grid_of(shape, iter(()), iter(())), {})
 
 
 def write_solid_state(
     path: Path | str, snapshot: SolidSnapshot, about: Mapping[str, object] | None = None
 ) -> None:
     """Write the state of a solid, see ``write_vtu``; doc/files lists the arrays."""
-    firsts = snapshot.corner_offsets
-    own = [np.arange(*firsts[k : k + 2]) for k in range(len(firsts) - 1)]
     shape = SolidShape(
         snapshot.positions,
         snapshot.tetrahedra,
         snapshot.tetrahedron_grain,
         snapshot.corners,
-        own,
+        np.arange(len(snapshot.corners)),
+        snapshot.corner_offsets,
         snapshot.contact_grains,
     )
-    grid = _grid_of(shape)
+    grid = _grid_of(shape, _over_points(snapshot), _over_cells(snapshot))
+    write_in_turn(path, grid, about or {})
+
+
+def _over_points(snapshot: SolidSnapshot) -> Iterator[vtkDataArray]:
     moved = (snapshot.positions - snapshot.reference, snapshot.corners - snapshot.corner_reference)
+    yield made("displacement", (np.concatenate(moved), VECTOR))
     still = np.zeros_like(snapshot.corners)
-    add(grid.GetPointData(), "displacement", (np.concatenate(moved), VECTOR))
-    add(grid.GetPointData(), "velocity", (np.concatenate((snapshot.velocities, still)), VECTOR))
-    for name, array in joined(_of_grains(snapshot), _of_contacts(snapshot)).items():
-        add(grid.GetCellData(), name, array)
-    for name, value in (about or {}).items():
-        describe(grid.GetFieldData(), name, value)
-    write_grid(path, grid)
+    yield made("velocity", (np.concatenate((snapshot.velocities, still)), VECTOR))
+
+
+def _over_cells(snapshot: SolidSnapshot) -> Iterator[vtkDataArray]:
+    grains, contacts = len(snapshot.tetrahedra), len(snapshot.contact_grains)
+    for name, array in _of_grains(snapshot):
+        yield made(name, _padded(array, 0, contacts))
+    for name, array in _of_contacts(snapshot).items():
+        yield made(name, _padded(array, grains, 0))
+
+
+def _padded(array: Named, before: int, after: int) -> Named:
+    """An array of grains or contacts over all cells, others nan or -1."""
+    values, components = array
+    blank = -1 if np.issubdtype(values.dtype, np.integer) else np.nan
+    first, last = (np.full((count, *values.shape[1:]), blank) for count in (before, after))
+    return np.concatenate((first, values, last)), components
 
 
 def state_of_grid(grid: Grid) -> SolidSnapshot:
@@ -177,49 +179,52 @@ def _volumes(corners: FloatArray) -> FloatArray:
     return volumes
 
 
-def _grid_of(shape: SolidShape) -> vtkUnstructuredGrid:
-    grid = vtkUnstructuredGrid()
-    points = vtkPoints()
-    points.SetDataTypeToDouble()
-    points.SetData(numpy_to_vtk(np.vstack((shape.nodes, shape.vertices)), deep=True))
-    grid.SetPoints(points)
-    own = [np.asarray(contact) + len(shape.nodes) for contact in shape.contacts]
-    corners = np.concatenate([shape.tetrahedra.ravel(), *own])
-    sizes = np.array([4] * len(shape.tetrahedra) + [len(one) for one in own])
-    ends = np.concatenate(([0], np.cumsum(sizes)))
-    cells = vtkCellArray()
-    cells.SetData(
-        numpy_to_vtkIdTypeArray(ends.astype(np.int64), deep=True),
-        numpy_to_vtkIdTypeArray(corners.astype(np.int64), deep=True),
-    )
-    count = (len(shape.tetrahedra), len(own))
-    types = np.repeat(np.array([VTK_TETRA, VTK_POLYGON], dtype=np.uint8), count)
-    grid.SetCells(numpy_to_vtk(types, deep=True), cells)
-    none = np.full(len(shape.tetrahedra), -1)
-    arrays: dict[str, IntArray] = {
-        "kind": np.repeat(np.array([GRAIN, CONTACT]), count),
-        "grain": np.concatenate((shape.grains, shape.pairs[:, 0])),
-        "neighbour": np.concatenate((none, shape.pairs[:, 1])),
-    }
-    for name, values in arrays.items():
-        add(grid.GetCellData(), name, (values, ()))
-    return grid
+def _grid_of(
+    shape: SolidShape, points: Iterator[vtkDataArray], cells: Iterator[vtkDataArray]
+) -> GridInTurn:
+    """The grid of a shape, with arrays of its own beside what all shapes have."""
+    tetrahedra, contacts = len(shape.tetrahedra), len(shape.pairs)
+    counts = (len(shape.nodes) + len(shape.vertices), tetrahedra + contacts)
+
+    def every_cell() -> Iterator[vtkDataArray]:
+        kinds = np.repeat(np.array([GRAIN, CONTACT]), (tetrahedra, contacts))
+        yield made("kind", (kinds, ()))
+        yield made("grain", (np.concatenate((shape.grains, shape.pairs[:, 0])), ()))
+        none = np.full(tetrahedra, -1)
+        yield made("neighbour", (np.concatenate((none, shape.pairs[:, 1])), ()))
+        yield from cells
+
+    def places() -> Iterator[vtkDataArray]:
+        yield _plain("Points", numpy_to_vtk(np.vstack((shape.nodes, shape.vertices))))
+
+    def corners() -> Iterator[vtkDataArray]:
+        own = shape.corners + len(shape.nodes)
+        joint = np.concatenate((shape.tetrahedra.ravel(), own)).astype(np.int64, copy=False)
+        yield _plain("connectivity", numpy_to_vtk(joint))
+        first = 4 * np.arange(1, tetrahedra + 1)
+        ends = np.concatenate((first, 4 * tetrahedra + shape.ends[1:])).astype(np.int64, copy=False)
+        yield _plain("offsets", numpy_to_vtk(ends))
+        types = np.array([VTK_TETRA, VTK_POLYGON], dtype=np.uint8)
+        yield _plain("types", numpy_to_vtk(np.repeat(types, (tetrahedra, contacts))))
+
+    return GridInTurn(counts, points, every_cell(), places(), corners())
 
 
-def _of_grains(snapshot: SolidSnapshot) -> dict[str, Named]:
-    stress, grain = snapshot.tetrahedron_stress, snapshot.tetrahedron_grain
-    mineral = snapshot.grain_mineral
-    kinds: dict[str, Named] = {} if mineral is None else {"mineral": (mineral[grain], ())}
+def _plain(name: str, array: vtkDataArray) -> vtkDataArray:
+    array.SetName(name)
+    return array
+
+
+def _of_grains(snapshot: SolidSnapshot) -> Iterator[tuple[str, Named]]:
+    grain, mineral = snapshot.tetrahedron_grain, snapshot.grain_mineral
+    yield "fragment", (snapshot.fragments.labels[grain], ())
+    yield "stress", (snapshot.tetrahedron_stress[:, _ORDER], TENSOR)
+    yield "grain_stress", (snapshot.grain_stress[:, _ORDER][grain], TENSOR)
     principal = snapshot.principal_stresses
-    return {
-        "fragment": (snapshot.fragments.labels[grain], ()),
-        "stress": (stress[:, _ORDER], TENSOR),
-        "grain_stress": (snapshot.grain_stress[grain][:, _ORDER], TENSOR),
-        "principal_stress_1": (principal[:, 2], ()),
-        "principal_stress_2": (principal[:, 1], ()),
-        "principal_stress_3": (principal[:, 0], ()),
-        **kinds,
-    }
+    for number in (1, 2, 3):
+        yield f"principal_stress_{number}", (principal[:, 3 - number], ())
+    if mineral is not None:
+        yield "mineral", (mineral[grain], ())
 
 
 def _of_contacts(snapshot: SolidSnapshot) -> dict[str, Named]:
