@@ -137,6 +137,13 @@ def require_writable(path: Path) -> bool:
     return target is not None
 
 
+def write_parts(path: Path | str, parts: Iterable[bytes | memoryview]) -> None:
+    """Write a file part by part, whole or not at all; a part is made when its turn has come."""
+    with whole_file(path) as temporary, temporary.open("wb") as file:
+        for part in parts:
+            file.write(part)
+
+
 def write_text(path: Path | str, text: str) -> None:
     """Write `text` as UTF-8 with Unix line ends, whole or not at all."""
     with whole_file(path) as temporary:

@@ -130,6 +130,19 @@ def test_a_large_solid_leaves_out_what_no_cut_needs_to_show(ended, monkeypatch):
     assert whole.note == ""
 
 
+def test_a_very_large_solid_has_no_map_and_its_page_says_so(ended, tmp_path, monkeypatch):
+    folder = copied(ended, tmp_path / "copy")
+    grains = Result.read(folder).grains
+    monkeypatch.setattr(page_run, "LARGEST_SOLID", grains - 1)
+    assert cli.main(["report", str(folder)]) == 0
+    text = (folder / page.FILE).read_text()
+    assert f"no map: grains = {grains}, are more than {grains - 1}" in text
+    assert "map-solid" not in text
+    monkeypatch.setattr(page_run, "LARGEST_SOLID", grains)
+    assert cli.main(["report", str(folder)]) == 0
+    assert "no map" not in (folder / page.FILE).read_text()
+
+
 @pytest.mark.parametrize("kind", ["gone", "torn", "of the plane"])
 def test_without_its_last_state_a_solid_has_no_stress(browser, ended, tmp_path, kind):
     folder = copied(ended, tmp_path / "copy")

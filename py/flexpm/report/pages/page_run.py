@@ -53,6 +53,8 @@ _PICTURES = {
 }
 #: Those of a script's own test, which has no map.
 _OWN_PICTURES = {"cracks.png": "Cracks", "fragments.png": "Fragments"}
+#: Most grains of a solid that has a map: its states are read from their files, gigabytes of more.
+LARGEST_SOLID = 100_000
 #: Values of a list that are shown.
 _LONGEST_LIST = 8
 #: What to cite, without the version.
@@ -280,6 +282,9 @@ def maps_of(
     turns: bool = False,
 ) -> tuple[list[Map], list[str]]:
     """Map of a run, or in one line why it is missing; arguments as for ``run_map``."""
+    if result.tetrahedra is not None and result.grains > LARGEST_SOLID:
+        why = f"grains = {result.grains}, are more than {LARGEST_SOLID} that a page shows"
+        return [], [f"no map: {why}; open final.vtu in ParaView"]
     try:
         found = run_map(folder, result, name, title, rows, chart, turns=turns)
     except InputError as error:

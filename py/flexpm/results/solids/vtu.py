@@ -16,8 +16,8 @@ from vtkmodules.vtkCommonCore import vtkDataArray
 from vtkmodules.vtkCommonDataModel import VTK_POLYGON, VTK_TETRA
 
 from ...arrays import FloatArray, IntArray
-from ..arrays.in_turn import GridInTurn, write_in_turn
 from ..arrays.vtu_arrays import CONTACT, GRAIN, TENSOR, VECTOR, Named, made
+from ..arrays.vtu_in_turn import GridInTurn, write_in_turn
 from ..arrays.vtu_reader import Arrays, Grid
 from .state import SolidSnapshot
 

@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import BinaryIO, NamedTuple
+from typing import NamedTuple
 
 from vtkmodules.vtkCommonCore import vtkDataArray
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
-from ...files import whole_file
+from ...files import write_parts
 from .vtu_arrays import content_of, describe
 
 #: Indent of a line within a piece, beyond that of field data.
@@ -38,32 +38,34 @@ def write_in_turn(path: Path | str, grid: GridInTurn, about: Mapping[str, object
         grid: Its arrays.
         about: Field data by name.
     """
+    write_parts(path, _parts(grid, about))
+
+
+def _parts(grid: GridInTurn, about: Mapping[str, object]) -> Iterator[bytes | memoryview]:
     empty = vtkUnstructuredGrid()
     for name, value in about.items():
         describe(empty.GetFieldData(), name, value)
     frame = content_of(empty)
-    piece = frame.index(b"    <Piece")
+    yield frame[: frame.index(b"    <Piece")]
     points, cells = grid.counts
-    parts = zip((b"PointData", b"CellData", b"Points", b"Cells"), grid[1:], strict=True)
-    with whole_file(path) as temporary, temporary.open("wb") as file:
-        file.write(frame[:piece])
-        file.write(f'    <Piece NumberOfPoints="{points}" NumberOfCells="{cells}">\n'.encode())
-        for name, arrays in parts:
-            file.write(b"      <%b>\n" % name)
-            for array in arrays:
-                _write_array(file, array)
-            file.write(b"      </%b>\n" % name)
-        file.write(frame[frame.index(b"    </Piece>") :])
+    yield f'    <Piece NumberOfPoints="{points}" NumberOfCells="{cells}">\n'.encode()
+    names = (b"PointData", b"CellData", b"Points", b"Cells")
+    for name, arrays in zip(names, grid[1:], strict=True):
+        yield b"      <%b>\n" % name
+        for array in arrays:
+            yield from _array(array)
+        yield b"      </%b>\n" % name
+    yield frame[frame.index(b"    </Piece>") :]
 
 
-def _write_array(file: BinaryIO, array: vtkDataArray) -> None:
+def _array(array: vtkDataArray) -> Iterator[bytes | memoryview]:
     holder = vtkUnstructuredGrid()
     holder.GetFieldData().AddArray(array)
     content = content_of(holder)
     begin = content.index(b"      <DataArray")
     values = content.index(b"\n", begin) + 1
     after = content.index(b"\n", values) + 1  # all values are one line
-    file.write(_DEEPER + re.sub(rb' NumberOfTuples="\d+"', b"", content[begin:values]) + _DEEPER)
-    file.write(memoryview(content)[values:after])
+    yield _DEEPER + re.sub(rb' NumberOfTuples="\d+"', b"", content[begin:values]) + _DEEPER
+    yield memoryview(content)[values:after]
     rest = content[after : content.index(b"    </FieldData>", after)]
-    file.write(b"".join(_DEEPER + line for line in rest.splitlines(keepends=True)))
+    yield b"".join(_DEEPER + line for line in rest.splitlines(keepends=True))
