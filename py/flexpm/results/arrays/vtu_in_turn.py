@@ -49,12 +49,12 @@ def _parts(grid: GridInTurn, about: Mapping[str, object]) -> Iterator[bytes | me
     yield frame[: frame.index(b"    <Piece")]
     points, cells = grid.counts
     yield f'    <Piece NumberOfPoints="{points}" NumberOfCells="{cells}">\n'.encode()
-    names = (b"PointData", b"CellData", b"Points", b"Cells")
-    for name, arrays in zip(names, grid[1:], strict=True):
-        yield b"      <%b>\n" % name
+    parts = (b"PointData", b"CellData", b"Points", b"Cells")
+    for part, arrays in zip(parts, grid[1:], strict=True):
+        yield b"      <%b>\n" % part
         for array in arrays:
             yield from _array(array)
-        yield b"      </%b>\n" % name
+        yield b"      </%b>\n" % part
     yield frame[frame.index(b"    </Piece>") :]
 
 
