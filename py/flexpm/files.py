@@ -140,8 +140,7 @@ def require_writable(path: Path) -> bool:
 def write_parts(path: Path | str, parts: Iterable[bytes | memoryview]) -> None:
     """Write a file part by part, whole or not at all; a part is made when its turn has come."""
     with whole_file(path) as temporary, temporary.open("wb") as file:
-        for part in parts:
-            file.write(part)
+        file.writelines(parts)
 
 
 def write_text(path: Path | str, text: str) -> None:

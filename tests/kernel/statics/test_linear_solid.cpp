@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Forces of points that lie at corners are those of their shares, to the bit.
+/// @file  Forces of points that lie at corners are those of their shares, and those that threads
+/// share are those of one, to the bit.
 #include "support/catch.hpp"
 
+#include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/solids/solid_masses.hpp>
 #include <flexpm/kernel/statics/linear_solid.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 
@@ -54,4 +57,33 @@ TEST_CASE("Forces of points at corners are those of their shares to the bit", "[
         same =
             blocks[n].x.x == as[n].x.x && blocks[n].y.z == as[n].y.z && blocks[n].z.z == as[n].z.z;
     CHECK(same);
+}
+
+TEST_CASE("Linear forces and fields have the same bits on any threads", "[solids]")
+{
+    const Packing p = packing(40, 6);
+    SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner));
+    scale_masses(s, 0.7);
+    hold_ends(s, { true, true });
+    const SolidField wanted_field = elastic_field(s);
+    LinearSolid alone = linear_solid(s);
+    Random random(4);
+    std::vector<double> u(3 * alone.places.size());
+    for (double& value : u)
+        value = random.next() - 0.5;
+    std::vector<double> wanted(u.size(), 0.0);
+    alone.share_among(1, { 0, static_cast<int>(alone.places.size()) });
+    alone.add(u.data(), wanted.data());
+    for (int threads : { 2, 3, 64 }) {
+        std::vector<double> forces(u.size(), 0.0);
+        linear_solid(s, threads).add(u.data(), forces.data());
+        CHECK(forces == wanted);
+        const SolidField field = elastic_field(s, threads);
+        bool same = field.ways.size() == wanted_field.ways.size();
+        for (std::size_t n = 0; same && n < field.ways.size(); ++n)
+            same = field.ways[n].x == wanted_field.ways[n].x
+                && field.ways[n].y == wanted_field.ways[n].y
+                && field.ways[n].z == wanted_field.ways[n].z;
+        CHECK(same);
+    }
 }

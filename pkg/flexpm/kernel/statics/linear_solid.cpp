@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/statics/linear_solid.hpp>
 
+#include <flexpm/kernel/core/thread_team.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -75,9 +77,36 @@ LinearSolid::Spring spring_at(double area, std::vector<double> shares)
     return { area, static_cast<int>(whole - shares.begin()), {} };
 }
 
-void LinearSolid::add(const double* u, double* forces) const
+LinearSolid::Share LinearSolid::share_of(int node, int end_node) const
 {
-    for (const Element& e : elements) {
+    const auto first_of = [&](int n) {
+        const auto at = std::partition_point(elements.begin(), elements.end(),
+            [n](const Element& e) { return e.nodes.front() < n; });
+        return static_cast<std::size_t>(at - elements.begin());
+    };
+    Share own { node, end_node, first_of(node), first_of(end_node), {} };
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+        if (own.owns(faces[f].nodes[0].front()) || own.owns(faces[f].nodes[1].front()))
+            own.faces.push_back(f);
+    return own;
+}
+
+void LinearSolid::share_among(int threads, const std::vector<int>& first_nodes)
+{
+    shares_.clear();
+    int node = 0;
+    for (int t = 1; t <= threads; ++t) {
+        const auto part = static_cast<long long>(first_nodes.back()) * t / threads;
+        const int end = *std::lower_bound(first_nodes.begin(), first_nodes.end(), part);
+        shares_.push_back(share_of(node, end));
+        node = end;
+    }
+}
+
+void LinearSolid::add_elements(const Share& own, const double* u, double* forces) const
+{
+    for (std::size_t i = own.element; i < own.end_element; ++i) {
+        const Element& e = elements[i];
         const auto& n = e.nodes;
         const SpaceGradient h = displacement_gradient(e.shape, triple_at(u, n[0]),
             triple_at(u, n[1]), triple_at(u, n[2]), triple_at(u, n[3]));
@@ -91,29 +120,36 @@ void LinearSolid::add(const double* u, double* forces) const
         add_triple(forces, n[2], f2);
         add_triple(forces, n[3], f3);
     }
-    for (const Face& face : faces) {
-        const std::size_t corners = face.nodes[0].size();
+}
+
+void LinearSolid::add_faces(const Share& own, const double* u, double* forces) const
+{
+    for (int f : own.faces) {
+        const Face& face = faces[f];
+        const int corners = static_cast<int>(face.nodes[0].size());
+        const auto give = [&](int side, int k, Vector force) {
+            add_triple(forces, face.nodes[side][k], side == 0 ? -force : force);
+        };
+        const bool owns[] = { own.owns(face.nodes[0].front()), own.owns(face.nodes[1].front()) };
         for (const Spring& s : face.springs) {
+            const bool at_corner = s.corner >= 0;  // the other corners have no part in it
+            const int first = at_corner ? s.corner : 0, end = at_corner ? first + 1 : corners;
             Vector jump;
-            if (s.corner >= 0) {  // as below, without what is 0
-                const int first = face.nodes[0][s.corner], second = face.nodes[1][s.corner];
-                jump = jump + (triple_at(u, second) - triple_at(u, first));
-                const Vector force = spring_force(face, s, jump);
-                add_triple(forces, second, force);
-                add_triple(forces, first, -force);
-                continue;
+            for (int k = first; k < end; ++k) {
+                const Vector apart =
+                    triple_at(u, face.nodes[1][k]) - triple_at(u, face.nodes[0][k]);
+                jump = jump + (at_corner ? apart : s.shares[k] * apart);
             }
-            for (std::size_t k = 0; k < corners; ++k)
-                jump = jump
-                    + s.shares[k]
-                        * (triple_at(u, face.nodes[1][k]) - triple_at(u, face.nodes[0][k]));
             const Vector force = spring_force(face, s, jump);
-            for (std::size_t k = 0; k < corners; ++k) {
-                add_triple(forces, face.nodes[1][k], s.shares[k] * force);
-                add_triple(forces, face.nodes[0][k], -s.shares[k] * force);
-            }
+            for (int side = 0; side < 2; ++side)
+                for (int k = first; owns[side] && k < end; ++k)
+                    give(side, k, at_corner ? force : s.shares[k] * force);
         }
     }
+}
+
+void LinearSolid::add_presses(const double* u, double* forces) const
+{
     const std::vector<double> floating = floating_ways(u);
     for (const Press& p : presses) {
         const Vector way = way_before(p, u), across = dot(p.normal, way) * p.normal;
@@ -122,6 +158,22 @@ void LinearSolid::add(const double* u, double* forces) const
         for (int k = 0; k < 3; ++k)
             add_triple(forces, p.nodes[k], p.shares[k] * force);
     }
+}
+
+void LinearSolid::add(const double* u, double* forces) const
+{
+    const auto add_own = [&](const Share& own) {
+        add_elements(own, u, forces);
+        add_faces(own, u, forces);
+    };
+    if (shares_.empty()) {
+        add_own(share_of(0, static_cast<int>(places.size())));
+    } else {
+        team_of(static_cast<int>(shares_.size())).run([&](int thread) {
+            add_own(shares_[thread]);
+        });
+    }
+    add_presses(u, forces);
 }
 
 std::vector<double> LinearSolid::floating_ways(const double* u) const

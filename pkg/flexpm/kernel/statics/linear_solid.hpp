@@ -48,6 +48,13 @@ struct LinearSolid : LinearForces {
     std::vector<Face> faces;
     std::vector<Press> presses;
 
+    /// Let threads share add(). Its sums keep their bits: a thread has the forces on nodes of its
+    /// own grains alone, in the order in which one thread adds them.
+    ///
+    /// @param first_nodes  those of grains, whose elements follow each other, too; then the number
+    ///         of nodes
+    void share_among(int threads, const std::vector<int>& first_nodes);
+
     /// Unknowns are the displacements of the nodes.
     void add(const double* u, double* forces) const override;
     std::vector<SpaceGradient> diagonal_blocks() const override;
@@ -55,6 +62,22 @@ struct LinearSolid : LinearForces {
     /// Ways of the plates that float, along their normals, where nodes move so: no force is on them
     /// then. By their numbers; 0 of others.
     std::vector<double> floating_ways(const double* u) const;
+
+private:
+    /// What one thread adds forces to, and what has a part in these.
+    struct Share {
+        int node = 0, end_node = 0;
+        std::size_t element = 0, end_element = 0;
+        std::vector<int> faces;  ///< with a side among the nodes
+
+        bool owns(int n) const { return node <= n && n < end_node; }
+    };
+    std::vector<Share> shares_;  ///< of threads; none: one adds all
+
+    Share share_of(int node, int end_node) const;
+    void add_elements(const Share& own, const double* u, double* forces) const;
+    void add_faces(const Share& own, const double* u, double* forces) const;
+    void add_presses(const double* u, double* forces) const;
 };
 
 /// Spring of a point, by the shares of the corners in its place.

@@ -13,6 +13,14 @@ namespace flexpm {
 
 namespace {
 
+/// How a field is found.
+struct Solving {
+    int threads = 1;
+    bool rises = false;  ///< the ends are driven: z from the bottom is given where nodes are held
+                         ///< along it, and where the solution begins
+    double low = 0.0;    ///< where the bottom is, of ends that are [m]
+};
+
 /// Numbers of a grain's nodes follow those of the grain before.
 class NodeNumbers {
 public:
@@ -26,6 +34,8 @@ public:
         const int first = grains_.block_nodes[grains_.block_of(grain)];
         return first_[grain] + (node - first) / grains_.layout.node_stride;
     }
+    /// First nodes of the grains, and the number of nodes.
+    const std::vector<int>& first() const { return first_; }
 
 private:
     const Grains& grains_;
@@ -100,9 +110,9 @@ bool is_driven(const LinearSolid::Press& p, const SolidDrive& drive)
 
 /// Forces of an intact specimen that plates which do not touch it have no part in. No load moves
 /// those that are driven.
-LinearSolid touched_solid(const SolidState& s, const SolidDrive& drive)
+LinearSolid touched_solid(const SolidState& s, const SolidDrive& drive, int threads)
 {
-    LinearSolid solid = linear_solid(s);
+    LinearSolid solid = linear_solid(s, threads);
     for (LinearSolid::Press& p : solid.presses)
         p.floats = p.floats && !is_driven(p, drive);
     auto& presses = solid.presses;
@@ -150,11 +160,9 @@ void add_given(
         f = -f;
 }
 
-/// @param rises  the ends are driven: z from the bottom is given where nodes are held along it, and
-///               where the solution begins
-SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, bool rises, double low)
+SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, const Solving& how)
 {
-    const LinearSolid solid = touched_solid(s, drive);
+    const LinearSolid solid = touched_solid(s, drive, how.threads);
     const std::size_t size = 3 * solid.places.size();
     std::vector<std::uint8_t> held(size, 0);
     std::size_t next = 0;
@@ -167,8 +175,8 @@ SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, bool ris
         refuse("elastic_field: held nodes", 0.0, "", "must be those of both ends; hold them first");
     std::vector<double> given(size, 0.0), guess(size, 0.0);
     std::vector<double> load = push_of(solid, drive);
-    for (std::size_t n = 0; rises && n < solid.places.size(); ++n)
-        (held[3 * n + 2] ? given : guess)[3 * n + 2] = solid.places[n].z - low;
+    for (std::size_t n = 0; how.rises && n < solid.places.size(); ++n)
+        (held[3 * n + 2] ? given : guess)[3 * n + 2] = solid.places[n].z - how.low;
     const NodeNumbers numbers(s);
     give_ways(s, drive, [&](int grain, int node, int axis, double way) {
         given[3 * numbers.of(grain, node) + axis] = way;
@@ -183,13 +191,13 @@ SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, bool ris
     return field;
 }
 
-SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, bool rises, double low)
+SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, const Solving& how)
 {
-    const LinearSolid solid = touched_solid(s, drive);
+    const LinearSolid solid = touched_solid(s, drive, how.threads);
     const RigidSolid rigid = rigid_solid(s, solid);
     std::vector<double> guess(6 * static_cast<std::size_t>(s.grains.count), 0.0);
-    for (int g = 0; rises && g < s.grains.count; ++g)
-        guess[6 * g + 2] = rigid.centres[g].z - low;
+    for (int g = 0; how.rises && g < s.grains.count; ++g)
+        guess[6 * g + 2] = rigid.centres[g].z - how.low;
     std::vector<double> load(guess.size(), 0.0);
     rigid.gather(push_of(solid, drive), load.data());
     std::vector<std::uint8_t> held(guess.size(), 0);
@@ -212,7 +220,7 @@ SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, bool ri
     return field;
 }
 
-SolidField field_of(const SolidState& s, const SolidDrive& drive, bool rises, double low)
+SolidField field_of(const SolidState& s, const SolidDrive& drive, const Solving& how)
 {
     const bool rigid = !s.bodies.empty();
     if (!s.held_faces.empty())
@@ -223,7 +231,7 @@ SolidField field_of(const SolidState& s, const SolidDrive& drive, bool rises, do
         refuse("elastic_field: plates", static_cast<double>(parts), "",
             "must be 2 or more of rigid grains; call hold_ends() first");
     }
-    return rigid ? field_of_bodies(s, drive, rises, low) : field_of_nodes(s, drive, rises, low);
+    return rigid ? field_of_bodies(s, drive, how) : field_of_nodes(s, drive, how);
 }
 
 }  // namespace
@@ -237,7 +245,7 @@ FaceFrame bonded_frame(const SolidState& s, int contact)
     return face_frame(corners, { 0, c.line[c.slot[contact]] });
 }
 
-LinearSolid linear_solid(const SolidState& s)
+LinearSolid linear_solid(const SolidState& s, int threads)
 {
     const NodeNumbers numbers(s);
     LinearSolid solid;
@@ -247,6 +255,7 @@ LinearSolid linear_solid(const SolidState& s)
     add_elements(s, numbers, solid);
     add_faces(s, numbers, solid);
     add_presses(s, numbers, solid);
+    solid.share_among(threads, numbers.first());
     return solid;
 }
 
@@ -260,19 +269,19 @@ RigidSolid rigid_solid(const SolidState& s, const LinearSolid& solid)
     return rigid;
 }
 
-SolidField elastic_field(const SolidState& s)
+SolidField elastic_field(const SolidState& s, int threads)
 {
     SolidDrive drive;
     const double low = end_place(s, SolidSide::bottom);
     drive.length = end_place(s, SolidSide::top) - low;
     for (int p = 0; p < static_cast<int>(s.plates.size()); ++p)
         if (s.plates[p].side == static_cast<int>(SolidSide::top)) drive.plates.push_back(p);
-    return field_of(s, drive, true, low);
+    return field_of(s, drive, { threads, true, low });
 }
 
-SolidField elastic_field(const SolidState& s, const SolidDrive& drive)
+SolidField elastic_field(const SolidState& s, const SolidDrive& drive, int threads)
 {
-    return field_of(s, drive, false, 0.0);
+    return field_of(s, drive, { threads });
 }
 
 }  // namespace flexpm

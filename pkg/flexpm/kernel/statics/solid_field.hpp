@@ -13,9 +13,10 @@ namespace flexpm {
 /// (hold_ends()): of deformable grains as solid_extension() has it, of rigid ones between their
 /// plates, and of a disc between those that touch it (add_disc_plates()). The bottom stays.
 ///
+/// @param threads  that share the solution, without a change to its bits
 /// @throws std::invalid_argument  unless ends are held, or if faces of rigid grains are
 /// @throws std::runtime_error  if the forces do not come to balance
-SolidField elastic_field(const SolidState& s);
+SolidField elastic_field(const SolidState& s, int threads = 1);
 
 /// What loads a specimen: plates and node sets that go a way, or the nodes of its top along z.
 struct SolidDrive {
@@ -29,10 +30,10 @@ struct SolidDrive {
 
 /// The same where plates and node sets hold and load a specimen by themselves, at that way of the
 /// driven ones. Those that a load moves follow.
-SolidField elastic_field(const SolidState& s, const SolidDrive& drive);
+SolidField elastic_field(const SolidState& s, const SolidDrive& drive, int threads = 1);
 
 /// Forces of an intact specimen; nodes grain after grain, the centre last.
-LinearSolid linear_solid(const SolidState& s);
+LinearSolid linear_solid(const SolidState& s, int threads = 1);
 
 /// Forces of an intact specimen of rigid grains on their centres and turns.
 /// @param solid  its linear_solid(), which must outlive it

@@ -12,7 +12,8 @@ SolidLoadingController::~SolidLoadingController() = default;
 
 void SolidLoadingController::action()
 {
-	auto* state = GrainSolver::ofScene(*scene)->solid();
+	const auto solver = GrainSolver::ofScene(*scene);
+	auto*      state  = solver->solid();
 	if (!state) throw std::runtime_error("SolidLoadingController: solver = one of the plane, must be a SolidSolver");
 	const Real before = drivenAt;
 	follow(velocity, seenVelocity, drivenAt);
@@ -20,7 +21,8 @@ void SolidLoadingController::action()
 	const flexpm::SolidDrive parts { plates, { direction[0], direction[1], direction[2] }, 1, nodeSets };
 	const auto               drive = parts.moves_top() ? flexpm::drive_of_top(*state) : parts;
 	if (gripped) return flexpm::go_on(*state, drive, drivenAt, scene->dt);
-	const auto field = parts.moves_top() ? flexpm::elastic_field(*state) : flexpm::elastic_field(*state, drive);
+	const int  threads = solver->threads();
+	const auto field   = parts.moves_top() ? flexpm::elastic_field(*state, threads) : flexpm::elastic_field(*state, drive, threads);
 	if (state->step > 0)
 		flexpm::take_over(*state, drive, field, drivenAt, undampedLoading, scene->dt);
 	else

@@ -77,6 +77,9 @@ public:
 	/// @throws std::runtime_error  if O.engines holds none with grains
 	static shared_ptr<GrainSolver> ofScene(const Scene& scene);
 
+	/// Threads of a step.
+	int threads() const;
+
 	/// Let forces act in the next step alone; they are read there.
 	void act(const flexpm::OuterForces& forces) { outer = &forces; }
 
@@ -223,7 +226,6 @@ protected:
 	void                                requireInScene() const;
 	void                                requireOwnScene() const;
 	flexpm::StepOptions                 stepOptions() const;
-	int                                 threads() const;
 	void                                trackEnergies();
 	void                                check();
 	void                                mirrorAtStop();
