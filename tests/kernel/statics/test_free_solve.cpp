@@ -4,6 +4,8 @@
 
 #include <flexpm/kernel/statics/free_solve.hpp>
 
+#include <numeric>
+
 using namespace flexpm;
 
 namespace {
@@ -25,13 +27,15 @@ struct Chain : LinearForces {
             }
         }
     }
-    std::vector<SpaceGradient> diagonal_blocks() const override
+    DiagonalBlocks diagonal_blocks() const override
     {
-        std::vector<SpaceGradient> blocks;
+        std::vector<int> alone(nodes());
+        std::iota(alone.begin(), alone.end(), 0);
+        DiagonalBlocks blocks(alone);
         for (int k = 0; k < nodes(); ++k) {
             const double left = k > 0 ? springs[k - 1] : 0.0;
             const double sum = left + (k + 1 < nodes() ? springs[k] : 0.0);
-            blocks.push_back({ { sum, 0.0, 0.0 }, { 0.0, sum, 0.0 }, { 0.0, 0.0, sum } });
+            blocks.add(k, k, 1.0, { { sum, 0.0, 0.0 }, { 0.0, sum, 0.0 }, { 0.0, 0.0, sum } });
         }
         return blocks;
     }

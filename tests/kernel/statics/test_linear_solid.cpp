@@ -51,12 +51,7 @@ TEST_CASE("Forces of points at corners are those of their shares to the bit", "[
     known.add(u.data(), forces.data());
     spelled.add(u.data(), wanted.data());
     CHECK(forces == wanted);
-    const auto blocks = known.diagonal_blocks(), as = spelled.diagonal_blocks();
-    bool same = blocks.size() == as.size();
-    for (std::size_t n = 0; same && n < blocks.size(); ++n)
-        same =
-            blocks[n].x.x == as[n].x.x && blocks[n].y.z == as[n].y.z && blocks[n].z.z == as[n].z.z;
-    CHECK(same);
+    CHECK(known.diagonal_blocks().values() == spelled.diagonal_blocks().values());
 }
 
 TEST_CASE("Linear forces and fields have the same bits on any threads", "[solids]")
@@ -86,4 +81,24 @@ TEST_CASE("Linear forces and fields have the same bits on any threads", "[solids
                 && field.ways[n].z == wanted_field.ways[n].z;
         CHECK(same);
     }
+}
+
+TEST_CASE("Contacts that are much stiffer than grains cost few iterations", "[solids]")
+{
+    const Packing p = packing(60, 6);
+    const auto iterations = [&](double stiffer) {
+        SolidInput input = granite(FacePointRule::corners_and_inner);
+        input.contacts.front().normal_stiffness *= stiffer;
+        const LinearSolid solid = linear_solid(make_solid(p.cells, p.solid, input));
+        std::vector<std::uint8_t> held;
+        std::vector<double> load;
+        for (const Vector& place : solid.places) {
+            const bool bottom = place.z < 1e-9;
+            held.insert(held.end(), 3, bottom ? 1 : 0);
+            load.insert(load.end(), { 0.0, 0.0, bottom ? 0.0 : 1.0 });
+        }
+        return solve_free(solid, held, load, std::vector<double>(load.size(), 0.0)).iterations;
+    };
+    // 1920 and 297 with each node in a block of its own, 163 and 166 so
+    CHECK(iterations(100.0) < 1.5 * iterations(1.0));
 }

@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 #include <Eigen/IterativeLinearSolvers>
 
-#include <cmath>
 #include <string>
 
 namespace flexpm {
@@ -91,27 +90,13 @@ struct generic_product_impl<flexpm::FreeStiffness, Right, SparseShape, DenseShap
 namespace flexpm {
 namespace {
 
-/// Inverse diagonal blocks of the free components.
+/// Inverse blocks on the diagonal, of the free components.
 class BlockPreconditioner {
 public:
     template <class Matrix> BlockPreconditioner& compute(const Matrix& matrix)
     {
-        const Operator& on = matrix.on();
-        for (const SpaceGradient& k : on.forces.diagonal_blocks()) {
-            Eigen::Matrix3d m;
-            m << k.x.x, k.x.y, k.x.z, k.y.x, k.y.y, k.y.z, k.z.x, k.z.y, k.z.z;
-            blocks_.push_back(m);
-        }
-        for (std::size_t n = 0; n < blocks_.size(); ++n) {
-            for (int k = 0; k < 3; ++k) {
-                if (!on.held[3 * n + k]) continue;
-                blocks_[n].row(k).setZero();
-                blocks_[n].col(k).setZero();
-                blocks_[n](k, k) = 1.0;
-            }
-            stiffen(blocks_[n]);
-            blocks_[n] = blocks_[n].inverse().eval();
-        }
+        blocks_ = matrix.on().forces.diagonal_blocks();
+        blocks_.invert(matrix.on().held);
         return *this;
     }
     template <class Matrix> BlockPreconditioner& analyzePattern(const Matrix&) { return *this; }
@@ -119,25 +104,13 @@ public:
     Numbers solve(const Numbers& right) const
     {
         Numbers result(right.size());
-        for (std::size_t n = 0; n < blocks_.size(); ++n) {
-            const auto k = static_cast<Eigen::Index>(3 * n);
-            result.segment<3>(k) = blocks_[n] * right.segment<3>(k);
-        }
+        blocks_.multiply(right.data(), result.data());
         return result;
     }
     Eigen::ComputationInfo info() const { return Eigen::Success; }
 
 private:
-    std::vector<Eigen::Matrix3d> blocks_;
-
-    /// A block that resists no motion in some way, as of a grain that one point holds, gets a
-    /// little stiffness there: it has no inverse otherwise.
-    static void stiffen(Eigen::Matrix3d& block)
-    {
-        const double size = block.norm();
-        if (std::fabs(block.determinant()) > 1e-12 * size * size * size) return;
-        block.diagonal().array() += size > 0.0 ? 1e-3 * size : 1.0;
-    }
+    DiagonalBlocks blocks_ { {} };
 };
 
 Numbers numbers(const std::vector<double>& values)

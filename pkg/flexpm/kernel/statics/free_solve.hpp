@@ -3,7 +3,7 @@
 /// Sums have a fixed order and one thread, so results have the same bits everywhere. SI units.
 #pragma once
 
-#include <flexpm/kernel/fem/tetrahedron.hpp>
+#include <flexpm/kernel/statics/diagonal_blocks.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -18,8 +18,8 @@ public:
     /// Add K u: the forces that hold it at these displacements.
     virtual void add(const double* u, double* forces) const = 0;
 
-    /// Diagonal 3x3 blocks of K, by rows, one for each three unknowns.
-    virtual std::vector<SpaceGradient> diagonal_blocks() const = 0;
+    /// Blocks on the diagonal of K: of each triple, or of groups that stiff springs join.
+    virtual DiagonalBlocks diagonal_blocks() const = 0;
 };
 
 struct FreeSolution {

@@ -4,6 +4,7 @@
 #include <flexpm/kernel/core/thread_team.hpp>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace flexpm {
@@ -27,11 +28,6 @@ SpaceGradient spring_block(const Face& face, const Spring& s)
 {
     return { spring_force(face, s, { 1.0, 0.0, 0.0 }), spring_force(face, s, { 0.0, 1.0, 0.0 }),
         spring_force(face, s, { 0.0, 0.0, 1.0 }) };
-}
-
-void add_block(SpaceGradient& sum, double factor, const SpaceGradient& k)
-{
-    sum = { sum.x + factor * k.x, sum.y + factor * k.y, sum.z + factor * k.z };
 }
 
 SpaceGradient press_block(const LinearSolid::Press& p)
@@ -193,23 +189,51 @@ std::vector<double> LinearSolid::floating_ways(const double* u) const
     return ways;
 }
 
-std::vector<SpaceGradient> LinearSolid::diagonal_blocks() const
+/// Group of each node: those on both sides of a corner of a face, whose springs may be much stiffer
+/// than grains.
+std::vector<int> LinearSolid::joined_nodes() const
 {
-    std::vector<SpaceGradient> blocks(places.size());
-    for (const Element& e : elements)
-        for (int k = 0; k < 4; ++k)
-            add_block(blocks[e.nodes[k]], 1.0, stiffness_block(e.shape, kinds[e.kind], k, k));
+    std::vector<int> parent(places.size()), group(places.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto first_of = [&](int n) {
+        while (parent[n] != n)
+            n = parent[n] = parent[parent[n]];
+        return n;
+    };
     for (const Face& face : faces) {
+        for (std::size_t k = 0; k < face.nodes[0].size(); ++k) {
+            const int a = first_of(face.nodes[0][k]), b = first_of(face.nodes[1][k]);
+            parent[std::max(a, b)] = std::min(a, b);
+        }
+    }
+    int groups = 0;
+    for (int n = 0; n < static_cast<int>(group.size()); ++n)
+        group[n] = parent[n] == n ? groups++ : group[first_of(n)];
+    return group;
+}
+
+DiagonalBlocks LinearSolid::diagonal_blocks() const
+{
+    DiagonalBlocks blocks(joined_nodes());
+    for (const Element& e : elements)
+        for (int n : { 0, 1, 2, 3 })
+            blocks.add(e.nodes[n], e.nodes[n], 1.0, stiffness_block(e.shape, kinds[e.kind], n, n));
+    for (const Face& face : faces) {
+        const auto& [a, b] = face.nodes;
         for (const Spring& s : face.springs) {
             const SpaceGradient block = spring_block(face, s);
-            for (const auto& nodes : face.nodes)
-                for (int k = 0; k < static_cast<int>(nodes.size()); ++k)
-                    add_block(blocks[nodes[k]], s.share(k) * s.share(k), block);
+            for (int k = 0; k < static_cast<int>(a.size()); ++k) {
+                const double share = s.share(k) * s.share(k);
+                blocks.add(a[k], a[k], share, block);
+                blocks.add(b[k], b[k], share, block);
+                blocks.add(a[k], b[k], -share, block);
+                blocks.add(b[k], a[k], -share, block);
+            }
         }
     }
     for (const Press& p : presses)
         for (int k = 0; k < 3; ++k)
-            add_block(blocks[p.nodes[k]], p.shares[k] * p.shares[k], press_block(p));
+            blocks.add(p.nodes[k], p.nodes[k], p.shares[k] * p.shares[k], press_block(p));
     return blocks;
 }
 
@@ -242,12 +266,14 @@ void RigidSolid::add(const double* u, double* forces) const
     gather(sums, forces);
 }
 
-std::vector<SpaceGradient> RigidSolid::diagonal_blocks() const
+DiagonalBlocks RigidSolid::diagonal_blocks() const
 {
-    std::vector<SpaceGradient> blocks(2 * centres.size());
+    std::vector<int> alone(2 * centres.size());
+    std::iota(alone.begin(), alone.end(), 0);
+    DiagonalBlocks blocks(alone);
     const auto add_to = [&](int g, Vector place, const SpaceGradient& block) {
-        add_block(blocks[2 * g], 1.0, block);
-        add_block(blocks[2 * g + 1], 1.0, turning_block(block, place - centres[g], radii[g]));
+        blocks.add(2 * g, 2 * g, 1.0, block);
+        blocks.add(2 * g + 1, 2 * g + 1, 1.0, turning_block(block, place - centres[g], radii[g]));
     };
     for (const Face& face : solid.faces) {
         for (const Spring& s : face.springs) {

@@ -57,7 +57,7 @@ struct LinearSolid : LinearForces {
 
     /// Unknowns are the displacements of the nodes.
     void add(const double* u, double* forces) const override;
-    std::vector<SpaceGradient> diagonal_blocks() const override;
+    DiagonalBlocks diagonal_blocks() const override;
 
     /// Ways of the plates that float, along their normals, where nodes move so: no force is on them
     /// then. By their numbers; 0 of others.
@@ -75,6 +75,7 @@ private:
     std::vector<Share> shares_;  ///< of threads; none: one adds all
 
     Share share_of(int node, int end_node) const;
+    std::vector<int> joined_nodes() const;
     void add_elements(const Share& own, const double* u, double* forces) const;
     void add_faces(const Share& own, const double* u, double* forces) const;
     void add_presses(const double* u, double* forces) const;
@@ -103,7 +104,7 @@ struct RigidSolid : LinearForces {
 
     explicit RigidSolid(const LinearSolid& of) : solid(of) { }
     void add(const double* u, double* forces) const override;
-    std::vector<SpaceGradient> diagonal_blocks() const override;
+    DiagonalBlocks diagonal_blocks() const override;
 
     /// Displacements of the nodes, from the unknowns.
     std::vector<double> on_nodes(const double* u) const;

@@ -120,6 +120,7 @@ Grains make_grains(const Polyhedra& cells, const SolidElasticities& materials, F
             face.springs.push_back(spring_at(p.area, p.shares));
         solid.faces.push_back(std::move(face));
     }
+    solid.share_among(1, { 0, static_cast<int>(solid.places.size()) });
     return g;
 }
 
