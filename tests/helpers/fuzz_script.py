@@ -17,6 +17,9 @@ QUERIES = (
 #: Attributes that a script may set to nonsense.
 NUMBERS = ("damping", "measurePeriod", "checkPeriod", "mirrorPeriod")
 
+#: Depth of solids [m].
+SOLID_DEPTH = 0.008
+
 
 class Script:
     """Calls that a user's script makes in any order, on one scene."""
@@ -93,6 +96,24 @@ class Script:
         self._built = self._flexpm.build(specimen, None, model)
         self._solver = self._built.solver
 
+    def do_build_solid(self, model: str, seed: int) -> None:
+        self._rig = None
+        if -seed not in self._specimens:
+            made = self._flexpm.Specimen.box(0.012, SOLID_DEPTH, 0.016, seed=seed)
+            self._specimens[-seed] = made
+        self._built = self._flexpm.build(self._specimens[-seed], None, model)
+        self._solver = self._built.solver
+
+    def _is_solid(self) -> bool:
+        return "depth" in self._built.specimen.dimensions
+
+    def _at(self, x: Any, y: Any) -> tuple[Any, ...]:
+        """A place of the plane; of a solid in the middle of its depth."""
+        return (x, 0.5 * SOLID_DEPTH, y) if self._is_solid() else (x, y)
+
+    def _along(self, way: list[Any]) -> tuple[Any, ...]:
+        return (way[0], 0.0, way[1]) if self._is_solid() else tuple(way)
+
     def _specimen(self, seed: int) -> Any:
         if seed not in self._specimens:
             made = self._flexpm.Specimen.rectangle(0.012, 0.016, 0.01, seed=seed)
@@ -102,7 +123,9 @@ class Script:
     def _parts(self) -> Any:
         """The specimen between parts, once something is built."""
         if self._rig is None and self._built is not None:
-            self._rig = self._flexpm.PartRig(self._built)
+            solid = self._is_solid()
+            kind = self._flexpm.SolidPartRig if solid else self._flexpm.PartRig
+            self._rig = kind(self._built)
             self._strange += self._held
             self._held = []
         return self._rig
@@ -118,7 +141,11 @@ class Script:
 
     def do_support(self, x: float, y: float, length: float, bonded: bool) -> None:
         if rig := self._parts():
-            self._held.append(rig.support((x, y), length, bonded=bonded))
+            self._held.append(rig.support(self._at(x, y), length, bonded=bonded))
+
+    def do_roller(self, x: float, y: float, pinned: bool) -> None:
+        if rig := self._parts():
+            self._held.append(rig.support(self._at(x, y), pinned=pinned))
 
     def do_platen(self, side: int, bonded: bool) -> None:
         if rig := self._parts():
@@ -139,20 +166,21 @@ class Script:
 
     def do_jaw(self, x: float, y: float, radius: float, angle: Any, name: Any) -> None:
         if rig := self._parts():
-            self._held.append(rig.jaw((x, y), radius, angle=angle))
+            self._held.append(rig.jaw(self._at(x, y), radius, angle=angle))
             rig.contact_of(name, self._held[-1])
 
     def do_soft(self, way: list[Any], parts: list[Any], machine: float) -> None:
         if rig := self._parts():
-            rig.drive(self._picked(parts), way, machine=machine)
+            rig.drive(self._picked(parts), self._along(way), machine=machine)
 
     def do_hold(self, x: float, y: float, radius: float, axes: str) -> None:
         if rig := self._parts():
-            self._held.append(rig.hold(disc=((x, y), radius), axes=axes))
+            region = {"ball" if self._is_solid() else "disc": (self._at(x, y), radius)}
+            self._held.append(rig.hold(**region, axes=axes))
 
     def do_drive(self, way: list[Any], parts: list[Any], against: list[Any]) -> None:
         if rig := self._parts():
-            rig.drive(self._picked(parts), way, against=self._picked(against))
+            rig.drive(self._picked(parts), self._along(way), against=self._picked(against))
 
     def do_turn(self, about: Any, parts: list[Any], back: list[Any]) -> None:
         if rig := self._parts():
@@ -179,7 +207,7 @@ class Script:
 
     def do_move(self, part: list[Any], along: float, across: float) -> None:
         if hasattr(held := self._picked(part), "move"):
-            held.move((across, along))
+            held.move(self._along([across, along]))
 
     def do_again(self) -> None:
         self._rig = None  # the next call takes the scene up
@@ -187,7 +215,7 @@ class Script:
     def do_names(self, name: Any, column: Any, part: list[Any]) -> None:
         if rig := self._parts():
             rig.also(name, column)
-            rig.way_of(name, self._picked(part), (0.0, 1.0))
+            rig.way_of(name, self._picked(part), self._along([0.0, 1.0]))
 
     def do_read(self, column: Any) -> None:
         if rig := self._parts():
@@ -204,7 +232,7 @@ class Script:
 
     def do_gauge(self, name: Any, x: float, y: float) -> None:
         if rig := self._parts():
-            rig.gauge(name, (x, y), (y, x))
+            rig.gauge(name, self._at(x, y), self._at(y, x))
 
     def do_set_nodes(self, first: int, count: int) -> None:
         nodes = self._solver.nodePlaces()[0][max(first, 0) :][:count].tolist()

@@ -45,6 +45,9 @@ CAVE = st.tuples(
     st.sampled_from([1, 2]),
     st.sampled_from(CAVES),
 )
+SOLID = st.tuples(
+    st.just("build_solid"), st.sampled_from(["flexible", "rigid"]), st.sampled_from([1, 2])
+)
 #: Parts by number, doubles, those of other rigs (from 100 on), and what is no part.
 PICK = st.sampled_from([0, 1, 2, 3, 100, 101, None, 0.5, "part", True])
 PICKS = st.lists(PICK, max_size=3)
@@ -95,7 +98,8 @@ STAGES = st.one_of(
 )
 PARTS = st.one_of(
     st.tuples(st.just("support"), PLACE, PLACE, st.sampled_from([0.001, 0.0, 1.0]), st.booleans()),
-    st.tuples(st.just("platen"), st.sampled_from([0, 1, 2, 3, 9, -1]), st.booleans()),
+    st.tuples(st.just("roller"), PLACE, PLACE, st.booleans()),
+    st.tuples(st.just("platen"), st.sampled_from([0, 1, 2, 3, 4, 9, -1]), st.booleans()),
     st.tuples(
         st.just("hold"),
         *(PLACE, PLACE, st.sampled_from([0.002, 1.0, 0.0, -1.0])),
@@ -142,6 +146,7 @@ PARTS = st.one_of(
 CALLS = st.one_of(
     CUT,
     CAVE,
+    SOLID,
     PARTS,
     PARTS,
     st.tuples(
@@ -193,17 +198,20 @@ def child():
     one.close()
 
 
+def end_in_one_line(child, calls):
+    for call, seen in zip(calls, child.run(calls), strict=True):
+        error = seen["error"]
+        assert "\n" not in error or FOREIGN.match(error), (call, error)
+        assert not error.startswith(INTERNAL), (call, error)
+
+
 @given(st.lists(CALLS, min_size=1, max_size=12))
 @example([("bare",), ("ask", "counts")])
 @example([("build", "inner", 1, 1, "fan"), ("start", 1e-3)])
 @example([("bare",), ("engines", "solver"), ("step", 10)])
 @drawing(150)
 def test_calls_in_any_order_end_in_one_line(child, calls):
-    for call, seen in zip(calls, child.run(calls), strict=True):
-        error = seen["error"]
-        if error and not FOREIGN.match(error):
-            assert "\n" not in error, (call, error)
-        assert not error.startswith(INTERNAL), (call, error)
+    end_in_one_line(child, calls)
 
 
 class Model:
@@ -241,11 +249,22 @@ class Model:
 @given(BUILD | CUT | CAVE, st.lists(PLAIN | PARTS, max_size=8))
 @drawing(60)
 def test_parts_laid_in_any_order_end_in_one_line(child, build, calls):
-    calls = [build, *calls]
-    for call, seen in zip(calls, child.run(calls), strict=True):
-        error = seen["error"]
-        assert "\n" not in error or FOREIGN.match(error), (call, error)
-        assert not error.startswith(INTERNAL), (call, error)
+    end_in_one_line(child, [build, *calls])
+
+
+#: How a test of a solid may begin.
+BEGUN = (
+    [],
+    [("platen", 0, False), ("platen", 2, False)],
+    [("platen", 0, False), ("platen", 2, False), ("drive", (0.0, -1.0), [1], [0])],
+    [("roller", 0.006, 0.0, False), ("platen", 2, True), ("press", [1], 1e5)],
+)
+
+
+@given(SOLID, st.sampled_from(BEGUN), st.lists(PLAIN | PARTS, max_size=8))
+@drawing(40)
+def test_parts_of_solids_laid_in_any_order_end_in_one_line(child, build, begun, calls):
+    end_in_one_line(child, [build, *begun, *calls])
 
 
 @given(BUILD, st.lists(PLAIN, max_size=12))
@@ -265,7 +284,7 @@ def test_a_scene_is_what_a_plain_model_says_and_a_saved_one_comes_back(child, bu
         last = seen["state"]
 
 
-@given(BUILD | CUT, st.lists(PLAIN, max_size=8))
+@given(BUILD | CUT | SOLID, st.lists(PLAIN, max_size=8))
 @drawing(15)
 def test_the_same_calls_give_the_same_bits(child, build, calls):
     calls = [("reset",), build, *calls]
