@@ -209,6 +209,7 @@ def end_in_one_line(child, calls):
 @example([("bare",), ("ask", "counts")])
 @example([("build", "inner", 1, 1, "fan"), ("start", 1e-3)])
 @example([("bare",), ("engines", "solver"), ("step", 10)])
+@example([("build", "flexible", 1, 3, "fan"), ("clear",), ("ends", None, 0.0, 0.0)])
 @drawing(150)
 def test_calls_in_any_order_end_in_one_line(child, calls):
     end_in_one_line(child, calls)

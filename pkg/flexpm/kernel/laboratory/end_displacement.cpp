@@ -150,6 +150,10 @@ double ramped(double start, double full, std::int64_t done, int ramp_steps)
 
 ElasticState find_end_state(const Assembly& a, const EndLoading& asked)
 {
+    const auto& erased = a.grains.erased;
+    if (std::find(erased.begin(), erased.end(), 0) == erased.end())
+        refuse("grains that are left", 0.0, "", "must be at least 1; build the specimen again");
+    if (!asked.disc) need_sides(a);  // which may have lost their grains
     if (asked.pressure && is_driven(asked) && !is_top_driven(a, asked)) {
         // as a test does: the top takes its shape under the pressure, and goes on as it is then
         EndLoading first = asked, then = asked;
