@@ -154,7 +154,7 @@ FLEXPM_INLINE FaceUpdate update_block(
     find_frames(b, m);
     const int cracks = b.dilating ? advance_points<true>(b, m, states, cracked)
                                   : advance_points<false>(b, m, states, cracked);
-    write_forces<Wide, false>(b, m, to);
+    write_forces<false>(b, m, to);
     return { cracks, count_turned(m) };
 }
 
@@ -184,7 +184,7 @@ template <bool Wide> FLEXPM_INLINE bool hold_block(const FaceLanes& b, const Fac
         spread_point(b, p, at.force, m);
     }
     if (any_of(leaves)) return false;
-    write_forces<Wide, true>(b, m, to);
+    write_forces<true>(b, m, to);
     return true;
 }
 

@@ -280,7 +280,7 @@ FLEXPM_INLINE void spread_point(const FaceLanes& b, int p, const double* force, 
 /// on either side.
 ///
 /// @tparam Intact  true: the couples have no part along the normals
-template <bool Wide, bool Intact>
+template <bool Intact>
 FLEXPM_INLINE void write_forces(const FaceLanes& b, const FaceMotion& m, const FaceForces& to)
 {
     alignas(64) double tilting[vector_rows], about[vector_rows], of_a[vector_rows],
@@ -317,11 +317,11 @@ FLEXPM_INLINE void write_forces(const FaceLanes& b, const FaceMotion& m, const F
         for (int side = 0; side < 2; ++side) {
             const int first = (2 * k + side) * lanes;
             if (to.parcels) {
-                from_lanes<Wide>(sides[side], [&](int l, const Four& f) FLEXPM_INLINED {
+                from_lanes(sides[side], [&](int l, const Four& f) FLEXPM_INLINED {
                     row_of_four(to.parcels + 4 * (first + l)) = f;
                 });
             } else {
-                from_lanes<Wide>(sides[side], [&](int l, const Four& f) FLEXPM_INLINED {
+                from_lanes(sides[side], [&](int l, const Four& f) FLEXPM_INLINED {
                     row_of_four(to.force + b.nodes[first + l]) += f;
                 });
             }

@@ -44,11 +44,10 @@ FLEXPM_INLINE void gather_corners(const TetrahedronRows& b, const int* nodes, do
 }
 
 /// Adds to one node after the other, since lanes may share it.
-template <bool Wide>
 FLEXPM_INLINE void scatter_corners(const TetrahedronRows& b, const int* nodes, const double* force)
 {
     for (int k = 0; k < Tetrahedra::corners; ++k) {
-        from_lanes<Wide>(force + k * vector_rows, [&](int l, const Four& f) FLEXPM_INLINED {
+        from_lanes(force + k * vector_rows, [&](int l, const Four& f) FLEXPM_INLINED {
             row_of_four(b.force + nodes[k * lanes + l]) += f;
         });
     }
@@ -78,11 +77,11 @@ template <bool Wide> FLEXPM_INLINE void add_forces(const TetrahedronRows& b)
             store_vector(f.f3, force + 2 * vector_rows, l);
             store_vector(load_vector(on_corners, l) + (f.f1 + f.f2 + f.f3), on_corners, l);
         }
-        scatter_corners<Wide>(b, nodes, force);
+        scatter_corners(b, nodes, force);
     }
     // minus all on the centre
     Four sum {};
-    from_lanes<Wide>(on_corners, [&](int, const Four& f) FLEXPM_INLINED { sum += f; });
+    from_lanes(on_corners, [&](int, const Four& f) FLEXPM_INLINED { sum += f; });
     row_of_four(b.force + b.centre) -= sum;
 }
 
