@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Equilibrium by conjugate gradients of what is given as an operator: no matrix is stored.
-/// Sums have a fixed order and one thread, so results have the same bits everywhere. SI units.
+/// Sums have a fixed order, on any threads, so results have the same bits everywhere. SI units.
 #pragma once
 
 #include <flexpm/kernel/statics/diagonal_blocks.hpp>
