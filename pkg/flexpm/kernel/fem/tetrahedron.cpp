@@ -53,9 +53,13 @@ SpaceTensor inertia_of(const SpaceTensor& m)
 SpaceGradient stiffness_block(const TetrahedronShape& s, const PlaneStiffness& c, int a, int b)
 {
     const std::array<Vector, 4> g = { -(s.g1 + s.g2 + s.g3), s.g1, s.g2, s.g3 };
-    const Vector u = g[a], v = g[b];
+    return stiffness_block(g[a], g[b], s.volume, c);
+}
+
+SpaceGradient stiffness_block(Vector u, Vector v, double volume, const PlaneStiffness& c)
+{
     // cross u v^T + shear (v u^T + (u . v) I)
-    const double shear = s.volume * c.shear, cross = s.volume * c.cross, both = shear * dot(u, v);
+    const double shear = volume * c.shear, cross = volume * c.cross, both = shear * dot(u, v);
     return { cross * u.x * v + shear * v.x * u + Vector { both, 0.0, 0.0 },
         cross * u.y * v + shear * v.y * u + Vector { 0.0, both, 0.0 },
         cross * u.z * v + shear * v.z * u + Vector { 0.0, 0.0, both } };

@@ -189,6 +189,14 @@ std::vector<double> LinearSolid::floating_ways(const double* u) const
     return ways;
 }
 
+Vector LinearSolid::place_of(const Press& p) const
+{
+    Vector place;
+    for (int k = 0; k < 3; ++k)
+        place = place + p.shares[k] * places[p.nodes[k]];
+    return place;
+}
+
 /// Group of each node: those on both sides of a corner of a face, whose springs may be much stiffer
 /// than grains.
 std::vector<int> LinearSolid::joined_nodes() const
@@ -235,6 +243,33 @@ DiagonalBlocks LinearSolid::diagonal_blocks() const
         for (int k = 0; k < 3; ++k)
             blocks.add(p.nodes[k], p.nodes[k], p.shares[k] * p.shares[k], press_block(p));
     return blocks;
+}
+
+std::optional<CoarseGrid> LinearSolid::coarse_grid(const std::vector<std::uint8_t>& held) const
+{
+    CoarseGrid grid(places);
+    // volumes lie at the nodes, so that no motion of a node is without a stiffness; contacts do not
+    // open in a smooth motion
+    std::vector<double> volumes(places.size(), 0.0);
+    std::vector<int> kind(places.size(), 0);
+    for (const Element& e : elements) {
+        for (int k = 0; k < 4; ++k) {
+            const int n = e.nodes[k];
+            volumes[n] += 0.25 * e.shape.volume;
+            kind[n] = e.kind;
+            const std::uint8_t* on = held.data() + 3 * n;
+            if (!on[0] && !on[1] && !on[2]) continue;
+            const SpaceGradient own = stiffness_block(e.shape, kinds[e.kind], k, k);
+            grid.add_spring(places[n],
+                { { on[0] ? own.x.x : 0.0, 0.0, 0.0 }, { 0.0, on[1] ? own.y.y : 0.0, 0.0 },
+                    { 0.0, 0.0, on[2] ? own.z.z : 0.0 } });
+        }
+    }
+    for (std::size_t n = 0; n < places.size(); ++n)
+        if (volumes[n] > 0.0) grid.add_volume(places[n], volumes[n], kinds[kind[n]]);
+    for (const Press& p : presses)
+        grid.add_spring(place_of(p), press_block(p));
+    return grid;
 }
 
 void RigidSolid::gather(const std::vector<double>& on_nodes, double* forces) const
@@ -286,12 +321,8 @@ DiagonalBlocks RigidSolid::diagonal_blocks() const
             }
         }
     }
-    for (const LinearSolid::Press& p : solid.presses) {
-        Vector place;
-        for (int k = 0; k < 3; ++k)
-            place = place + p.shares[k] * solid.places[p.nodes[k]];
-        add_to(grain[p.nodes[0]], place, press_block(p));
-    }
+    for (const LinearSolid::Press& p : solid.presses)
+        add_to(grain[p.nodes[0]], solid.place_of(p), press_block(p));
     return blocks;
 }
 

@@ -3,7 +3,7 @@
 /// tetrahedra, points of faces, smooth plates. SI units.
 #pragma once
 
-#include <flexpm/kernel/statics/free_solve.hpp>
+#include <flexpm/kernel/iteration/free_solve.hpp>
 
 #include <array>
 #include <vector>
@@ -58,10 +58,14 @@ struct LinearSolid : LinearForces {
     /// Unknowns are the displacements of the nodes.
     void add(const double* u, double* forces) const override;
     DiagonalBlocks diagonal_blocks() const override;
+    std::optional<CoarseGrid> coarse_grid(const std::vector<std::uint8_t>& held) const override;
 
     /// Ways of the plates that float, along their normals, where nodes move so: no force is on them
     /// then. By their numbers; 0 of others.
     std::vector<double> floating_ways(const double* u) const;
+
+    /// Where a contact of a plate lies.
+    Vector place_of(const Press& p) const;
 
 private:
     /// What one thread adds forces to, and what has a part in these.

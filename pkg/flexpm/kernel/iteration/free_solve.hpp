@@ -3,9 +3,11 @@
 /// Sums have a fixed order, on any threads, so results have the same bits everywhere. SI units.
 #pragma once
 
-#include <flexpm/kernel/statics/diagonal_blocks.hpp>
+#include <flexpm/kernel/iteration/coarse_grid.hpp>
+#include <flexpm/kernel/iteration/diagonal_blocks.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace flexpm {
@@ -20,6 +22,13 @@ public:
 
     /// Blocks on the diagonal of K: of each triple, or of groups that stiff springs join.
     virtual DiagonalBlocks diagonal_blocks() const = 0;
+
+    /// Smooth motions of it, if the unknowns are displacements of nodes in space.
+    /// @param held  1 for each unknown that is held
+    virtual std::optional<CoarseGrid> coarse_grid(const std::vector<std::uint8_t>& /*held*/) const
+    {
+        return std::nullopt;
+    }
 };
 
 struct FreeSolution {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <flexpm/kernel/statics/free_solve.hpp>
+#include <flexpm/kernel/iteration/free_solve.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
 
@@ -12,7 +12,7 @@ namespace flexpm {
 namespace {
 
 /// Residual, relative to the load, at which forces are in balance.
-constexpr double balanced = 1e-10;
+constexpr double balanced = 1e-12;
 constexpr int most_iterations = 20000;
 
 using Numbers = Eigen::VectorXd;
@@ -90,27 +90,36 @@ struct generic_product_impl<flexpm::FreeStiffness, Right, SparseShape, DenseShap
 namespace flexpm {
 namespace {
 
-/// Inverse blocks on the diagonal, of the free components.
-class BlockPreconditioner {
+/// Inverse blocks on the diagonal, of the free components, and smooth motions.
+class TwoLevelPreconditioner {
 public:
-    template <class Matrix> BlockPreconditioner& compute(const Matrix& matrix)
+    template <class Matrix> TwoLevelPreconditioner& compute(const Matrix& matrix)
     {
         blocks_ = matrix.on().forces.diagonal_blocks();
         blocks_.invert(matrix.on().held);
+        held_ = &matrix.on().held;
+        grid_ = matrix.on().forces.coarse_grid(*held_);
+        if (grid_) grid_->factorize();
         return *this;
     }
-    template <class Matrix> BlockPreconditioner& analyzePattern(const Matrix&) { return *this; }
-    template <class Matrix> BlockPreconditioner& factorize(const Matrix& m) { return compute(m); }
+    template <class Matrix> TwoLevelPreconditioner& analyzePattern(const Matrix&) { return *this; }
+    template <class Matrix> TwoLevelPreconditioner& factorize(const Matrix& m)
+    {
+        return compute(m);
+    }
     Numbers solve(const Numbers& right) const
     {
         Numbers result(right.size());
         blocks_.multiply(right.data(), result.data());
+        if (grid_) grid_->add_motion(*held_, right.data(), result.data());
         return result;
     }
     Eigen::ComputationInfo info() const { return Eigen::Success; }
 
 private:
     DiagonalBlocks blocks_ { {} };
+    std::optional<CoarseGrid> grid_;
+    const std::vector<std::uint8_t>* held_ = nullptr;
 };
 
 Numbers numbers(const std::vector<double>& values)
@@ -127,7 +136,7 @@ FreeSolution solve_free(const LinearForces& forces, const std::vector<std::uint8
     Numbers right = numbers(load);
     on.project(right);
     const FreeStiffness matrix(on);
-    Eigen::ConjugateGradient<FreeStiffness, Eigen::Lower | Eigen::Upper, BlockPreconditioner>
+    Eigen::ConjugateGradient<FreeStiffness, Eigen::Lower | Eigen::Upper, TwoLevelPreconditioner>
         solver;
     solver.setTolerance(balanced);
     solver.setMaxIterations(most_iterations);

@@ -2,7 +2,7 @@
 /// @file  Conjugate gradients of structures that are free to move.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/statics/free_solve.hpp>
+#include <flexpm/kernel/iteration/free_solve.hpp>
 
 #include <numeric>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <flexpm/kernel/statics/diagonal_blocks.hpp>
+#include <flexpm/kernel/iteration/diagonal_blocks.hpp>
 
 #include <Eigen/Dense>
 
