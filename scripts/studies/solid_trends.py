@@ -5,16 +5,17 @@ Groups of runs, each of five packings of 3 mm grains unless told otherwise:
 
     models    flexible, rigid and JCFpm, bilinear and brittle: compression, tension, splitting, and
               compression under 2 and 4 MPa, from which the friction angle follows
-    ends      height over diameter 1 to 3 of a core, ends smooth and with friction 0.5
+    ends      height over diameter 1 to 3 of a core, ends smooth and with friction 0.1
     middle    true triaxial: the larger side pressure from 4 to 40 MPa beside 4 MPa
     sizes     grains over the diameter of a core, 5 to 16
 
 Adds one CSV row a run and passes over rows that are there. SI units. Start it from a checkout that
-scripts/setup has built; the second command prints means and standard errors:
+scripts/setup has built; the second command prints means and standard errors, the third draws them:
 
     export PYTHONPATH=build/python
     /usr/bin/python3 scripts/studies/solid_trends.py scripts/studies/solid_trends.csv ends
     /usr/bin/python3 scripts/studies/solid_trends.py scripts/studies/solid_trends.csv --table
+    /usr/bin/python3 scripts/studies/solid_trends.py solid_trends.csv --picture a.png
 """
 
 from __future__ import annotations
@@ -26,19 +27,25 @@ import statistics
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_type_hints
+
+from matplotlib import rc_context
+from matplotlib.figure import Figure
 
 import flexpm
 from flexpm.errors import SimulationError
+from flexpm.report.style import STYLE, save
 
 SEEDS = (1, 2, 3, 4, 5)
 #: Five grains of 3 mm over the core.
 DIAMETER = 0.015
-#: Strengths of Table 2, bilinear and in the brittle limit, for all models.
-MATERIALS = ("augig-table2-bilinear", "augig-table2-brittle")
+#: Strengths of granite's solids for all models; brittle without the energies of fracture.
+MATERIAL, SOFTENINGS = "augig3d-calibrated", ("bilinear", "brittle")
 LEAST, MIDDLES = 4e6, (4e6, 10e6, 20e6, 40e6)
-RATIOS, FRICTIONS = (1.0, 1.5, 2.0, 3.0), (0.0, 0.5)
+RATIOS, FRICTIONS = (1.0, 1.5, 2.0, 3.0), (0.0, 0.1)
 ACROSS = (5, 8, 12, 16)
+#: Two and a half times that of the peak without pressure.
+MAX_STRAIN = 0.012
 
 
 class Run(NamedTuple):
@@ -46,7 +53,7 @@ class Run(NamedTuple):
 
     group: str
     model: str
-    material: str
+    softening: str
     test: str
     confinement: float  #: [Pa]
     second: float  #: on front and back of a box [Pa]; that of the others without
@@ -69,7 +76,7 @@ def plan(group: str) -> Iterator[Run]:
         if group == "models":
             yield from _models(seed)
         for model in ("flexible", "rigid"):
-            own = Run(group, model, MATERIALS[0], "uniaxial", 0.0, 0.0, 2.0, 0.0, 5, seed)
+            own = Run(group, model, SOFTENINGS[0], "uniaxial", 0.0, 0.0, 2.0, 0.0, 5, seed)
             if group == "ends":
                 for ratio in RATIOS:
                     for friction in FRICTIONS:
@@ -83,15 +90,15 @@ def plan(group: str) -> Iterator[Run]:
 
 
 def _models(seed: int) -> Iterator[Run]:
-    for material in MATERIALS:
+    for softening in SOFTENINGS:
         for model in ("flexible", "rigid", "jcfpm"):
-            own = Run("models", model, material, "uniaxial", 0.0, 0.0, 2.0, 0.0, 5, seed)
+            own = Run("models", model, softening, "uniaxial", 0.0, 0.0, 2.0, 0.0, 5, seed)
             yield own
             yield own._replace(test="tension")
             if model == "jcfpm":  # it has no triaxial test and no disc in space
                 continue
             yield own._replace(test="brazilian")
-            if material == MATERIALS[0]:
+            if softening == SOFTENINGS[0]:
                 for pressure in (2e6, 4e6):
                     yield own._replace(test="triaxial", confinement=pressure, second=pressure)
 
@@ -106,16 +113,24 @@ def specimen_of(run: Run) -> Any:
     return flexpm.Specimen.cylinder(diameter, run.ratio * diameter, seed=run.seed)
 
 
+def material_of(run: Run) -> flexpm.Material:
+    """The granite, for a model."""
+    granite = flexpm.materials.load(MATERIAL)
+    return granite.with_set({"softening": run.softening}, run.model)
+
+
 def row_of(run: Run) -> list[object]:
     """Do a run."""
-    options: dict[str, Any] = {"confinement": run.confinement} if run.confinement else {}
+    options: dict[str, Any] = {"max_strain": MAX_STRAIN, "stop_ratio": 0.9}
+    if run.confinement:
+        options["confinement"] = run.confinement
     if run.group == "middle":
         options["second_confinement"] = run.second
     if run.friction:
         options["end_friction"] = run.friction
     specimen = specimen_of(run)
     try:
-        found = flexpm.run(run.test, specimen, run.material, run.model, **options)
+        found = flexpm.run(run.test, specimen, material_of(run), run.model, **options)
     except SimulationError as error:  # a specimen that does not bear its pressures
         return [*run, None, None, None, None, len(specimen.radii), None, None, str(error)[:60]]
     return [
@@ -137,32 +152,79 @@ def read(table: Path) -> dict[Run, dict[str, str]]:
         return {}
     with table.open(encoding="utf-8", newline="") as file:
         rows = [*csv.DictReader(file)]
-    kinds = Run.__annotations__
-    numbers = {"float": float, "int": int, "str": str}
-    return {Run(*(numbers[kinds[name]](row[name]) for name in Run._fields)): row for row in rows}
+    kinds = get_type_hints(Run)
+    return {Run(*(kinds[name](row[name]) for name in Run._fields)): row for row in rows}
+
+
+class Mean(NamedTuple):
+    """What packings have in common."""
+
+    of: float
+    error: float  #: standard error
+
+
+def mean_of(runs: list[dict[str, str]], name: str, unit: float) -> Mean:
+    """Mean of what has a value."""
+    values = [float(row[name]) / unit for row in runs if row[name]]
+    if not values:
+        return Mean(math.nan, math.nan)
+    error = statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else math.nan
+    return Mean(statistics.mean(values), error)
+
+
+def sets_of(rows: dict[Run, dict[str, str]]) -> dict[Run, list[dict[str, str]]]:
+    """Rows of the same case, by its run with the seed 0."""
+    sets: dict[Run, list[dict[str, str]]] = {}
+    for run, row in rows.items():
+        sets.setdefault(run._replace(seed=0), []).append(row)
+    return sets
 
 
 def print_table(rows: dict[Run, dict[str, str]]) -> None:
     """Print means over the packings, their standard errors, and how many passed a peak."""
-    sets: dict[tuple[object, ...], list[Run]] = {}
-    for run in rows:
-        sets.setdefault(run[:-1], []).append(run)
     writer = csv.writer(sys.stdout, lineterminator="\n")
-    told = ("peak_stress", "crack_initiation_stress")
-    writer.writerow(
-        (*Run._fields[:-1], *(f"{name}{part}" for name in told for part in ("", "_error")), "ok")
-    )
-    for key, runs in sets.items():
-        cells: list[str] = []
-        for name in told:
-            values = [float(rows[run][name]) / 1e6 for run in runs if rows[run][name]]
-            mean = statistics.mean(values) if values else math.nan
-            error = (
-                statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else math.nan
-            )
-            cells += [f"{mean:.2f}", f"{error:.2f}"]
-        passed = sum(rows[run]["status"] == "ok" for run in runs)
-        writer.writerow((*key, *cells, f"{passed} of {len(runs)}"))
+    told = {"peak_stress": 1e6, "youngs_modulus": 1e9, "crack_initiation_stress": 1e6}
+    names = (f"{name}{part}" for name in told for part in ("", "_error"))
+    writer.writerow((*Run._fields[:-1], *names, "ok"))
+    for run, of in sets_of(rows).items():
+        means = (value for name, unit in told.items() for value in mean_of(of, name, unit))
+        passed = sum(row["status"] == "ok" for row in of)
+        cells = (f"{value:.2f}" for value in means)
+        writer.writerow((*run[:-1], *cells, f"{passed} of {len(of)}"))
+
+
+#: Title of a group's picture, its axis, the field along it and the factor to its unit.
+PANELS = {
+    "ends": ("compression", "height over diameter [-]", "ratio", 1.0),
+    "middle": ("true triaxial, least pressure 4 MPa", "larger pressure [MPa]", "second", 1e-6),
+    "sizes": ("compression", "grains over the diameter", "across", 1.0),
+    "models": ("triaxial", "pressure [MPa]", "confinement", 1e-6),
+}
+
+
+def draw(rows: dict[Run, dict[str, str]], picture: Path) -> None:
+    """Draw peaks of the groups over what they change, with standard errors."""
+    groups = [group for group in PANELS if any(run.group == group for run in rows)]
+    figure = Figure(figsize=(4.0 * len(groups), 3.2), layout="constrained")
+    for axes, group in zip(figure.subplots(1, len(groups), squeeze=False)[0], groups, strict=True):
+        title, label, field, factor = PANELS[group]
+        lines: dict[str, list[tuple[float, Mean]]] = {}
+        for run, of in sets_of(rows).items():
+            if run.group != group or run.test not in ("uniaxial", "triaxial"):
+                continue
+            if group == "models" and (run.model == "jcfpm" or run.softening != SOFTENINGS[0]):
+                continue
+            name = run.model + (f", ends with friction {run.friction:g}" if run.friction else "")
+            point = factor * getattr(run, field), mean_of(of, "peak_stress", 1e6)
+            lines.setdefault(name, []).append(point)
+        for name, points in lines.items():
+            points.sort()
+            x, means = zip(*points, strict=True)
+            errors = [mean.error if mean.error > 0.0 else 0.0 for mean in means]  # of one: none
+            axes.errorbar(x, [mean.of for mean in means], errors, marker="o", capsize=3, label=name)
+        axes.set(title=title, xlabel=label, ylabel="largest stress [MPa]", ylim=(0.0, None))
+        axes.legend(frameon=False)
+    save(figure, picture)
 
 
 def main() -> None:
@@ -171,11 +233,14 @@ def main() -> None:
     parser.add_argument("table", type=Path, help="CSV file that gets the rows")
     parser.add_argument("groups", nargs="*", help="models, ends, middle, sizes")
     parser.add_argument("--table", action="store_true", dest="show", help="print the means")
+    parser.add_argument("--picture", type=Path, help="draw the means into this file")
     options = parser.parse_args()
     rows = read(options.table)
     if options.show:
         print_table(rows)
-        return
+    if options.picture:
+        with rc_context(STYLE):
+            draw(rows, options.picture)
     for run in (run for group in options.groups for run in plan(group)):
         if run in rows:
             continue
