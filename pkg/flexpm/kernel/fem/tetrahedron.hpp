@@ -97,7 +97,7 @@ SpaceTensor inertia_of(const SpaceTensor& moments);
 /// rows: the force of the element on node a is minus the block times the displacement of node b.
 SpaceGradient stiffness_block(const TetrahedronShape& s, const PlaneStiffness& c, int a, int b);
 
-/// The same of any two shape functions with these gradients over a volume.
+/// The same of any two shape functions with these gradients [1/m] over a volume [m^3].
 SpaceGradient stiffness_block(Vector u, Vector v, double volume, const PlaneStiffness& c);
 
 }  // namespace flexpm

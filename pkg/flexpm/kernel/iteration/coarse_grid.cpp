@@ -158,8 +158,9 @@ void CoarseGrid::factorize()
     Eigen::SparseMatrix<double> matrix(unknowns(), unknowns());
     matrix.setFromTriplets(entries.begin(), entries.end());
     const Numbers diagonal = matrix.diagonal();
+    const double mean = diagonal.mean();
     for (int i = 0; i < unknowns(); ++i)
-        matrix.coeffRef(i, i) += little * (diagonal[i] + diagonal.mean());
+        matrix.coeffRef(i, i) += little * (diagonal[i] + mean);
     auto factors = std::make_shared<Factors>();
     factors->of.compute(matrix);
     if (factors->of.info() == Eigen::Success) factors_ = std::move(factors);

@@ -17,19 +17,19 @@ class CoarseGrid {
 public:
     /// Cubes over the nodes, a few grains wide; wider where a solid has very many.
     ///
-    /// @param places  of the nodes, whose displacements are the unknowns; they must outlive the
-    ///         grid
+    /// @param places  of the nodes, whose displacements are the unknowns [m]; they must outlive
+    ///         the grid
     explicit CoarseGrid(const std::vector<Vector>& places);
 
-    /// Add an elastic volume there, a small part of a brick.
+    /// Add an elastic volume there, a small part of a brick [m^3].
     void add_volume(Vector place, double volume, const PlaneStiffness& c);
-    /// Add what holds the solid there, by rows.
+    /// Add what holds the solid there, by rows [N/m].
     void add_spring(Vector place, const SpaceGradient& k);
 
     /// Find the factors of the stiffness. Motions that nothing resists get a little of it.
     void factorize();
 
-    /// Add the smooth motion that forces on free nodes give.
+    /// Add the smooth motion [m] that forces on free nodes give [N]; none without factors.
     /// @param held  1 for each unknown that is held
     void add_motion(
         const std::vector<std::uint8_t>& held, const double* forces, double* motion) const;
