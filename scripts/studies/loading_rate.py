@@ -11,9 +11,10 @@ Start it from a checkout that scripts/setup has built:
 from __future__ import annotations
 
 import argparse
-import csv
 from pathlib import Path
 from typing import Any
+
+from growing_table import add_row
 
 import flexpm
 from flexpm.results import measures
@@ -73,18 +74,12 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--k", type=float, nargs="+", default=[0.02, 0.01, 0.005])
     options = parser.parse_args()
-    new = not options.table.exists()
-    with options.table.open("a", newline="") as file:
-        writer = csv.writer(file)
-        if new:
-            writer.writerow(FIELDS)
-        for test in options.tests:
-            for seed in options.seeds:
-                specimen = specimen_for(test, options.scale, seed)
-                for k in options.k:
-                    result = run_at(k, specimen, test, options.model, options.confinement)
-                    writer.writerow(row_of(result, seed, k, options.scale))
-                    file.flush()
+    for test in options.tests:
+        for seed in options.seeds:
+            specimen = specimen_for(test, options.scale, seed)
+            for k in options.k:
+                result = run_at(k, specimen, test, options.model, options.confinement)
+                add_row(options.table, FIELDS, row_of(result, seed, k, options.scale))
 
 
 if __name__ == "__main__":

@@ -22,6 +22,7 @@ from typing import NamedTuple
 from unittest import mock
 
 import numpy as np
+from growing_table import add_row
 
 import flexpm
 from flexpm._flexpm import AssemblyInput
@@ -158,12 +159,7 @@ def main() -> None:
         run = Run(test, options.width, depth, options.rate, seed)
         if run in rows:
             continue
-        row, new = row_of(run), not options.table.exists()
-        with options.table.open("a", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            if new:
-                writer.writerow(FIELDS)
-            writer.writerow(row)
+        add_row(options.table, FIELDS, row_of(run))
 
 
 if __name__ == "__main__":

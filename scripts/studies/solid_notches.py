@@ -18,7 +18,6 @@ scripts/setup has built:
 from __future__ import annotations
 
 import argparse
-import csv
 import math
 import time
 from collections.abc import Callable
@@ -26,6 +25,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from growing_table import add_row
 from plane_in_space import BACK, FRONT, prisms
 
 import flexpm
@@ -210,15 +210,9 @@ def main() -> None:
     began = time.process_time()
     grains, found, plane = KINDS[options.kind](options.across, options.seed)
     of = "" if plane is None else found.intensity / plane.intensity
-    new = not options.table.exists()
-    with options.table.open("a", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        if new:
-            writer.writerow(FIELDS)
-        case = (options.kind, options.across, options.seed, grains)
-        writer.writerow(
-            (*case, found.intensity, of, found.modulus, round(time.process_time() - began))
-        )
+    case = (options.kind, options.across, options.seed, grains)
+    seconds = round(time.process_time() - began)
+    add_row(options.table, FIELDS, (*case, found.intensity, of, found.modulus, seconds))
 
 
 if __name__ == "__main__":

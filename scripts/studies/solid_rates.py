@@ -19,6 +19,8 @@ from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 
+from growing_table import add_row
+
 import flexpm
 from flexpm.results import measures
 
@@ -130,13 +132,7 @@ def main() -> None:
     for run in (Run(*case) for case in cases):
         if run in rows:
             continue
-        row = row_of(run)
-        new = not options.table.exists()
-        with options.table.open("a", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            if new:
-                writer.writerow(FIELDS)
-            writer.writerow(row)
+        add_row(options.table, FIELDS, row_of(run))
 
 
 if __name__ == "__main__":

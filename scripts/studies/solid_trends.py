@@ -29,6 +29,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
+from growing_table import add_row
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
@@ -244,13 +245,7 @@ def main() -> None:
     for run in (run for group in options.groups for run in plan(group)):
         if run in rows:
             continue
-        row = row_of(run)
-        new = not options.table.exists()
-        with options.table.open("a", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            if new:
-                writer.writerow(FIELDS)
-            writer.writerow(row)
+        add_row(options.table, FIELDS, row_of(run))
 
 
 if __name__ == "__main__":
