@@ -13,14 +13,23 @@ from ..kinds.words import Drawn, Shown, Words, strain, stress
 from ..specimens.space.any_spec import is_solid
 
 if TYPE_CHECKING:
+    from ..files import Table
     from ..results.result import Result
 
-__all__ = ["Drawn", "Shown", "Words", "words_of_result", "words_of_test"]
+__all__ = ["Drawn", "Shown", "Words", "turns_by", "words_of_result", "words_of_test"]
 
 
 def words_of_test(test: str) -> Words:
     """Words of a test, by its name."""
     return kind_of(test).words
+
+
+def turns_by(drive: Table, *, solid: bool) -> bool:
+    """Whether a drive turns its parts: its load is a moment then, its way an angle.
+
+    In the plane z is the axis of a turn, in space a direction like others.
+    """
+    return bool(drive.get("turns", False) if solid else drive["direction"][2] != 0.0)
 
 
 def words_of_result(result: Result) -> Words:
@@ -30,8 +39,7 @@ def words_of_result(result: Result) -> Words:
     drive = result.inputs.get("drive")
     if not drive:  # between two ends, or before it is loaded
         return Words()
-    # z is the axis of a turn in the plane, a direction in space
-    turns = drive["direction"][2] != 0.0 and not is_solid(result.inputs["specimen"]["kind"])
+    turns = turns_by(drive, solid=is_solid(result.inputs["specimen"]["kind"]))
     way = ("angle", 1e3, "mrad") if turns else ("displacement", 1e6, "µm")
     load = ("moment", 1.0, "N m") if turns else ("load", 1.0, "N")
     # a size of 1 was not given: the strain is the way then, the stress the load

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from yade import wrapper
@@ -14,7 +14,7 @@ from ..files import Table
 from ..require import NOT_NEGATIVE, POSITIVE, require_number
 from .layout import PartLayout
 from .parts import HeldNodes, Part, RigPart, in_words, numbers, require_apart, require_parts
-from .places import SPACE, Place, require_direction, require_vector
+from .places import SPACE, Place, Vector, require_direction, require_vector
 
 #: Cosines of directions that differ by less than this from 1 are along each other [-].
 _ALONG = 1e-6
@@ -113,12 +113,23 @@ class PartLoads(PartLayout):
         Raises:
             InputError: as `drive`.
         """
-        sets = require_parts("turn: part", self, parts, HeldNodes)
-        others = require_parts("turn: part back", self, back, HeldNodes)
+        sizes = {"area": area, "length": length, "strength": strength}
+        self._turn((parts, back), about, (0.0, 0.0, 1.0), sizes)
+
+    def _turn(
+        self,
+        parts: tuple[HeldNodes | Sequence[HeldNodes], HeldNodes | Sequence[HeldNodes]],
+        about: Place | None,
+        axis: Vector,
+        sizes: Mapping[str, float],
+    ) -> None:
+        """Turn sets about an axis, the second ones the other way."""
+        sets = require_parts("turn: part", self, parts[0], HeldNodes)
+        others = require_parts("turn: part back", self, parts[1], HeldNodes)
         if not sets:
             raise InputError("turn: parts = none, must be at least 1")
         require_apart("turn: part", sets, others)
-        pivot = None if about is None else require_vector("turn: about", about)
+        pivot = None if about is None else require_vector("turn: about", about, axes=self._axes)
         self._require_fixed("turn", () if about is not None else (*sets, *others))
         self._load_by(
             "turn",
@@ -127,10 +138,10 @@ class PartLoads(PartLayout):
             backSets=numbers(others, HeldNodes),
             holding=[],
             holdingSets=[],
-            direction=(0.0, 0.0, 1.0),
-            area=require_number("turn: area", area, POSITIVE, "N m/Pa"),
-            length=require_number("turn: length", length, POSITIVE),
-            strength=require_number("turn: strength", strength, NOT_NEGATIVE, "Pa"),
+            direction=axis,
+            area=require_number("turn: area", sizes["area"], POSITIVE, "N m/Pa"),
+            length=require_number("turn: length", sizes["length"], POSITIVE),
+            strength=require_number("turn: strength", sizes["strength"], NOT_NEGATIVE, "Pa"),
         )
         for part in (*sets, *others):
             self._turn_about(part, pivot)

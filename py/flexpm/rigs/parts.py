@@ -112,27 +112,20 @@ class HeldNodes(RigPart):
     """Nodes that a rig holds or moves as one.
 
     `place` is the point about which they turn: the mean of their places, unless told otherwise.
+    In the plane a turn is counter-clockwise, in space it has three components, right-handed.
     """
 
     _list = "nodeSets"
 
     @property
-    def moment(self) -> float:
-        """On the specimen about `place`, counter-clockwise, in the plane [N m].
-
-        Raises:
-            InputError: in space, where sets do not turn.
-        """
-        return self._number("moment")
+    def moment(self) -> float | tuple[float, ...]:
+        """On the specimen about `place` [N m]."""
+        return self._turn("moment")
 
     @property
-    def angle(self) -> float:
-        """Since they were held, counter-clockwise, in the plane [rad].
-
-        Raises:
-            InputError: in space, where sets do not turn.
-        """
-        return self._number("angle")
+    def angle(self) -> float | tuple[float, ...]:
+        """Since they were held [rad]."""
+        return self._turn("angle")
 
     @property
     def nodes(self) -> list[int]:
@@ -148,13 +141,16 @@ class HeldNodes(RigPart):
     def _is_in_space(self) -> bool:
         return len(self._now["place"]) == len(SPACE)
 
-    def move(self, velocity: Place | None = None, spin: float = 0.0) -> None:
+    def _turn(self, name: str) -> float | tuple[float, ...]:
+        return self._vector(name) if self._is_in_space else self._number(name)
+
+    def move(self, velocity: Place | None = None, spin: float | Place = 0.0) -> None:
         """Move them from the next step on, whatever the rig's loading does.
 
         Args:
             velocity: x, y and in space z, of what is held alone [m/s, or m per step with scaled
                 masses]; None: none.
-            spin: About `place`, counter-clockwise, in the plane [rad/s, or rad per step].
+            spin: About `place` [rad/s, or rad per step]; in space x, y and z.
 
         Raises:
             InputError: for a velocity along an axis that is not held, or one of nodes that turn
@@ -163,11 +159,15 @@ class HeldNodes(RigPart):
         axes = SPACE if self._is_in_space else PLANE
         given = (0.0,) * len(axes) if velocity is None else velocity
         x, y, z = require_vector("move: velocity", given, "m/s", axes)
-        spin = require_number("move: spin", spin, unit="rad/s")
-        if self._is_in_space and spin != 0.0:
-            raise InputError(f"move: spin = {spin:g} rad/s, must be 0 in space")
+        solver = self.solver
         try:
-            self.solver.moveNodeSet(self.number, (x, y, z if self._is_in_space else spin))
+            if isinstance(solver, wrapper.SolidSolver):
+                turns = (0.0, 0.0, 0.0) if spin == 0.0 else spin
+                about = require_vector("move: spin", turns, "rad/s", axes)
+                solver.moveNodeSet(self.number, (x, y, z), about)
+            else:
+                spin = require_number("move: spin", spin, unit="rad/s")
+                solver.moveNodeSet(self.number, (x, y, spin))
         except ValueError as error:
             raise InputError(f"move: {error}") from None
 

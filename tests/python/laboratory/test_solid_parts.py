@@ -172,7 +172,7 @@ def test_what_is_wrong_is_refused(box):
         (lambda: rig.support((0.0, 0.006, 0.006), normal=(1, 0, 0)), "must be along z"),
         (lambda: rig.support((0.0, 0.006, 0.008)), "triangles at x = 0 m, z = 0.008 m = 0"),
         (lambda: rig.hold(), "region = none or several, must be one of box, ball and where"),
-        (lambda: rig.turn([]), "turn: specimen = a solid, must be plane"),
+        (lambda: rig.turn([]), "turn: parts = none, must be at least 1"),
         (lambda: rig.drive(top, (0, -1)), "must be x, y and z"),
         (
             lambda: rig.drive(top, (0, 0, -1), machine=1e8),
@@ -257,10 +257,55 @@ def test_held_nodes_bear_what_they_pull(model):
     # what the elastic start gives of motion is the rest
     assert record["boundary_work"][-1] - high.work == pytest.approx(rig.motion_energy, abs=1e-12)
     assert low.axes == "xyz"
-    with pytest.raises(InputError, match="has none in space"):
-        _ = low.moment
-    with pytest.raises(InputError, match="spin = 1 rad/s, must be 0 in space"):
+    with pytest.raises(InputError, match="spin = 1.0, must be x, y and z"):
         low.move(spin=1.0)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_held_nodes_that_turn_twist_a_solid(model, tmp_path):
+    tall = flexpm.Specimen.box(SIZE, SIZE, 2.0 * SIZE, seed=1)
+    rig = rig_of(tall, model, out=tmp_path / "twisted")
+    low = rig.hold(box=((0, 0, 0), (SIZE, SIZE, 0.3 * SIZE)))
+    high = rig.hold(where=lambda _x, _y, z: z > 1.7 * SIZE)
+    about = (0.5 * SIZE, 0.5 * SIZE, SIZE)
+    rig.turn(high, low, about=about, axis=(0, 0, 2), strength=15.0)
+    rig.load(flexpm.Loading(kind="waiting", stop_ratio=0.7))
+    record = rig.record
+    load, angle = record["load"], record["displacement"]
+    peak = int(np.argmax(load))
+    assert 0 < peak < len(record) - 1
+    assert high.angle == pytest.approx((0.0, 0.0, angle[-1]), rel=1e-9)
+    assert low.angle == pytest.approx((0.0, 0.0, -angle[-1]), rel=1e-9)
+    # the record has the sum of both moments; at rest they are opposite
+    assert high.moment[2] == pytest.approx(-low.moment[2], abs=0.05 * load.max())
+    work = 0.5 * np.sum((load[1:] + load[:-1]) * np.diff(angle)) + 0.5 * load[0] * angle[0]
+    assert high.work + low.work == pytest.approx(work, rel=0.03)
+    works = record["boundary_work"][-1] - high.work - low.work
+    assert works == pytest.approx(rig.motion_energy, abs=1e-12)
+    assert abs(imbalance(rig)) < 1e-3 * record["boundary_work"][-1]
+    rig.finish()
+    found = content(tmp_path / "twisted")
+    assert found["inputs"]["drive"]["turns"]
+    assert found["peak_load"] is None
+    assert "moment" in (tmp_path / "twisted" / "report.html").read_text()
+
+
+def test_a_solid_turns_about_an_axis_as_told(box):
+    rig = rig_of(box)
+    held = rig.hold(ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.3 * SIZE))
+    held.move(spin=(0.0, 1e-3, 0.0))
+    for _ in range(20):
+        yade.O.step()
+    assert held.angle == pytest.approx((0.0, 0.02, 0.0), rel=1e-9)
+    for wrong, message in (
+        ({"axis": (0, 0, 0)}, "turn: axis: length of its direction = 0"),
+        ({"axis": (0, 1)}, "turn: axis: direction = .*, must be x, y and z"),
+        ({"about": (0, 1)}, "turn: about = .*, must be x, y and z"),
+        ({"back": held}, "is there twice"),
+        ({"area": 0.0}, "turn: area = 0"),
+    ):
+        with pytest.raises(InputError, match=message):
+            rig.turn(held, **wrong)
 
 
 def test_a_moved_set_takes_the_specimen_along(box):

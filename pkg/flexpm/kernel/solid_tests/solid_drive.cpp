@@ -17,14 +17,16 @@ namespace {
 
 constexpr int axial = 2;
 
-void set_velocity(SolidState& s, const SolidDrive& drive, double velocity)
+void set_velocity(SolidState& s, const SolidDrive& drive, double velocity, double dt)
 {
     for (int plate : drive.plates) {
         let_go(s.plates[plate]);
         s.plates[plate].velocity = velocity * drive.direction;
     }
-    for (int set : drive.sets)
-        set_velocity_of(s, set, velocity * drive.direction);
+    drive.for_each_set([&](int set, double sense) {
+        const Vector rate = sense * velocity * drive.direction;
+        set_motion_of(s, set, drive.turns ? Vector {} : rate, drive.turns ? rate : Vector {}, dt);
+    });
     if (drive.moves_top()) prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
 }
 
@@ -87,9 +89,11 @@ void start(SolidState& s, const SolidDrive& drive, const SolidField& field, doub
     const Vector way = part * drive.length * drive.direction;
     for (int plate : drive.plates)
         s.plates[plate].displacement = way;
-    for (int set : drive.sets)
-        s.node_sets[set].displacement = way;
-    set_velocity(s, drive, velocity);
+    drive.for_each_set([&](int set, double sense) {
+        NodeSet& moved = s.node_sets[set];
+        (drive.turns ? moved.angle : moved.displacement) = sense * way;
+    });
+    set_velocity(s, drive, velocity, dt);
     begin_from(s, field, part, velocity / drive.length);
     promise_work(s, dt);
     if (!undamped) forget_loading(s);
@@ -100,7 +104,7 @@ void take_over(SolidState& s, const SolidDrive& drive, const SolidField& field, 
 {
     check(velocity, dt);
     const double before = kinetic_of_velocities(s);
-    set_velocity(s, drive, velocity);
+    set_velocity(s, drive, velocity, dt);
     add_motion(s, field, velocity / drive.length);
     promise_work(s, dt);
     s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
@@ -112,7 +116,7 @@ void go_on(SolidState& s, const SolidDrive& drive, double velocity, double dt)
     check(velocity, dt);
     const double old = velocity_of(s, drive);
     if (velocity == old) return;
-    set_velocity(s, drive, velocity);
+    set_velocity(s, drive, velocity, dt);
     promise_work(s, dt);
     if (old == 0.0) return;
     const double before = kinetic_of_velocities(s);
@@ -142,7 +146,10 @@ Array<double> loading_field(const SolidState& s)
 double velocity_of(const SolidState& s, const SolidDrive& drive)
 {
     if (!drive.plates.empty()) return dot(s.plates[drive.plates.front()].velocity, drive.direction);
-    if (!drive.sets.empty()) return dot(s.node_sets[drive.sets.front()].velocity, drive.direction);
+    if (!drive.sets.empty()) {
+        const NodeSet& first = s.node_sets[drive.sets.front()];
+        return dot(drive.turns ? first.spin : first.velocity, drive.direction);
+    }
     return s.grains.velocity[s.grains.component(side_nodes(s, SolidSide::top).front(), axial)];
 }
 

@@ -38,7 +38,7 @@ void go_on(SolidState& s, const SolidDrive& drive, double velocity, double dt);
 /// layout of Grains::displacement; of held nodes their own [m/s].
 Array<double> loading_field(const SolidState& s);
 
-/// Velocity of what loads [m/s].
+/// Velocity of what loads [m/s, or rad/s].
 double velocity_of(const SolidState& s, const SolidDrive& drive);
 
 }  // namespace flexpm

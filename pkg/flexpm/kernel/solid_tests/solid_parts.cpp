@@ -95,7 +95,7 @@ void check(const SolidState& s, const PartGeometry& parts)
     check_positive("length of a test's displacement", parts.length, "m");
     if (parts.driven.empty() && parts.driven_sets.empty())
         refuse("driven parts", 0.0, "", "must be at least 1");
-    for (const auto& sets : { parts.driven_sets, parts.holding_sets }) {
+    for (const auto& sets : { parts.driven_sets, parts.back_sets, parts.holding_sets }) {
         for (int n : sets) {
             if (n >= 0 && n < static_cast<int>(s.node_sets.size())) continue;
             refuse("part", n, "", "must be the number of a node set; add one first");
@@ -120,17 +120,30 @@ double push(const SolidState& s, const std::vector<int>& plates, const std::vect
     return sum;
 }
 
-/// Way of what is driven first.
-Vector way_of(const SolidState& s, const PartGeometry& parts)
+/// Sum of the moments of what turns.
+double moment_of(const SolidState& s, const PartGeometry& parts)
 {
-    if (!parts.driven.empty()) return s.plates[parts.driven.front()].displacement;
-    return s.node_sets[parts.driven_sets.front()].displacement;
+    double sum = 0.0;
+    drive_of(parts).for_each_set([&](int set, double sense) {
+        sum += sense * dot(s.node_sets[set].moment, parts.direction);
+    });
+    return sum;
 }
 
-/// Forces along the loading: of the holding plates and of the driven ones.
+/// Way of what is driven first, or its angle.
+double way_of(const SolidState& s, const PartGeometry& parts)
+{
+    if (!parts.driven.empty())
+        return dot(s.plates[parts.driven.front()].displacement, parts.direction);
+    const NodeSet& first = s.node_sets[parts.driven_sets.front()];
+    return dot(parts.turn ? first.angle : first.displacement, parts.direction);
+}
+
+/// Forces along the loading: of the holding plates and of the driven ones; of what turns moments.
 EndForces ends_of(const SolidState& s, const PartGeometry& parts)
 {
-    const double top = push(s, parts.driven, parts.driven_sets, parts.direction);
+    const double top = parts.turn ? moment_of(s, parts)
+                                  : push(s, parts.driven, parts.driven_sets, parts.direction);
     if (parts.holding.empty() && parts.holding_sets.empty()) return { -top, top };
     return { push(s, parts.holding, parts.holding_sets, parts.direction), top };
 }
@@ -199,7 +212,7 @@ SolidFrame solid_part_frame(const SolidState& s, const PartGeometry& parts)
     frame.sense = Sense::tension;
     frame.ends = [parts](const SolidState& now) { return ends_of(now, parts); };
     frame.strains = [parts](const SolidState& now) {
-        return TestStrains { dot(way_of(now, parts), parts.direction) / parts.length,
+        return TestStrains { way_of(now, parts) / parts.length,
             std::numeric_limits<double>::quiet_NaN() };
     };
     return frame;
@@ -207,7 +220,8 @@ SolidFrame solid_part_frame(const SolidState& s, const PartGeometry& parts)
 
 SolidDrive drive_of(const PartGeometry& parts)
 {
-    return { parts.driven, parts.direction, 1.0, parts.driven_sets };
+    return { parts.driven, parts.direction, 1.0, parts.driven_sets, parts.back_sets,
+        parts.turn != 0.0 };
 }
 
 TestScales solid_part_scales(

@@ -32,7 +32,8 @@ int find_patch_plate(const SolidState& s, const SolidPatch& patch);
 /// @throws std::invalid_argument  for a plate that there is not, or a size that is not above 0
 SolidFrame solid_part_frame(const SolidState& s, const PartGeometry& parts);
 
-/// What its elastic solution drives: a way of 1 m.
+/// What its elastic solution drives: a way of 1 m, or an angle of 1 rad. The direction of what
+/// turns is its axis.
 SolidDrive drive_of(const PartGeometry& parts);
 
 /// Its scales, from the elastic solution, as part_scales() has them; `width` is the root of the

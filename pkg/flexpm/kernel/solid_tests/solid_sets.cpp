@@ -7,6 +7,7 @@
 #include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace flexpm {
@@ -57,13 +58,59 @@ Vector held_part(const NodeSet& set, Vector v)
     return { set.holds_x ? v.x : 0.0, set.holds_y ? v.y : 0.0, set.holds_z ? v.z : 0.0 };
 }
 
-/// Force of a set on the specimen: against all others on its nodes.
-Vector reaction(const SolidState& s, const NodeSet& set)
+/// Force that a set exerts on one of its nodes: against all others on it.
+Vector reaction_at(const SolidState& s, const NodeSet& set, std::size_t i)
 {
-    Vector sum;
+    return held_part(set, Vector {} - force_on(s, set.grains[i], set.nodes[i]));
+}
+
+/// Force and moment of a set on the specimen.
+void sum_reactions(const SolidState& s, NodeSet& set)
+{
+    set.force = {};
+    set.moment = {};
+    for (std::size_t i = 0; i < set.nodes.size(); ++i) {
+        const Vector force = reaction_at(s, set, i);
+        set.force = set.force + force;
+        set.moment = set.moment + cross(drawn_place(s.grains, set.nodes[i]) - set.pivot, force);
+    }
+}
+
+bool turns(const NodeSet& set) { return norm(set.spin) != 0.0; }
+
+/// Power of its forces with the velocities that its nodes have [W].
+double power_of(const SolidState& s, const NodeSet& set)
+{
+    if (!turns(set)) return dot(set.force, set.velocity);
+    double power = 0.0;
     for (std::size_t i = 0; i < set.nodes.size(); ++i)
-        sum = sum - force_on(s, set.grains[i], set.nodes[i]);
-    return held_part(set, sum);
+        power += dot(reaction_at(s, set, i), space_vector(s.grains.velocity, set.nodes[i]));
+    return power;
+}
+
+/// Velocity of a place of a set that turns, at which a step takes it to where the rotation does.
+Vector velocity_at(const NodeSet& set, Vector place, double dt)
+{
+    const double rate = norm(set.spin), half = std::sin(0.5 * dt * rate);
+    const Vector axis = (1.0 / rate) * set.spin, around = cross(axis, place - set.pivot);
+    const Vector turned = std::sin(dt * rate) * around + 2.0 * half * half * cross(axis, around);
+    return set.velocity + (1.0 / dt) * turned;
+}
+
+/// Take the nodes of a set that turns further along: its velocities for the step that follows, and
+/// what their change does to the work of the half step that has begun.
+void lead(SolidState& s, const NodeSet& set, double dt)
+{
+    Grains& grains = s.grains;
+    for (std::size_t i = 0; i < set.nodes.size(); ++i) {
+        const int node = set.nodes[i];
+        const Vector old = space_vector(grains.velocity, node);
+        const Vector along = velocity_at(set, drawn_place(grains, node), dt);
+        const Vector next = old + held_part(set, along - old);
+        set_space_vector(grains.velocity, node, next);
+        s.ledger.prescribed_work[2 * grains.block_of(set.grains[i]) + 1] +=
+            0.5 * dt * dot(reaction_at(s, set, i), next - old);
+    }
 }
 
 bool lies_on(const SolidState& s, const NodeSet& set, const Plate& plate, std::size_t index)
@@ -136,9 +183,16 @@ void require_apart(const SolidState& s, const Plate& plate)
         require_apart(s, set, plate);
 }
 
-void set_velocity_of(SolidState& s, int number, Vector velocity)
+void set_pivot(SolidState& s, int set, Vector pivot)
+{
+    check_finite("pivot of a node set", pivot.x + pivot.y + pivot.z, "m");
+    set_at(s, set).pivot = pivot;
+}
+
+void set_motion_of(SolidState& s, int number, Vector velocity, Vector spin, double dt)
 {
     check_finite("velocity of a node set", velocity.x + velocity.y + velocity.z, "m/s");
+    check_finite("spin of a node set", spin.x + spin.y + spin.z, "rad/s");
     NodeSet& set = set_at(s, number);
     const double along[] = { velocity.x, velocity.y, velocity.z };
     for (int axis = 0; axis < 3; ++axis) {
@@ -149,6 +203,8 @@ void set_velocity_of(SolidState& s, int number, Vector velocity)
         if (set.holds(axis)) prescribe(s, set.nodes, axis, along[axis]);
     }
     set.velocity = velocity;
+    set.spin = spin;
+    if (turns(set)) lead(s, set, dt);
 }
 
 void promise_work(SolidState& s, double dt)
@@ -171,7 +227,7 @@ void promise_work(SolidState& s, double dt)
         if (any || !grains.is_rigid(g)) s.ledger.prescribed_work[2 * grains.block_of(g) + 1] = work;
     }
     for (NodeSet& set : s.node_sets)
-        set.work_next = 0.5 * dt * dot(set.force, set.velocity);
+        set.work_next = 0.5 * dt * power_of(s, set);
 }
 
 void sum_node_sets(SolidState& s, double dt)
@@ -179,10 +235,11 @@ void sum_node_sets(SolidState& s, double dt)
     for (NodeSet& set : s.node_sets) {
         set.displacement = set.displacement + dt * set.velocity;
         set.pivot = set.pivot + dt * set.velocity;
-        set.force = reaction(s, set);
-        const double half = 0.5 * dt * dot(set.force, set.velocity);
-        set.work += set.work_next + half;
-        set.work_next = half;
+        set.angle = set.angle + dt * set.spin;
+        sum_reactions(s, set);
+        set.work += set.work_next + 0.5 * dt * power_of(s, set);
+        if (turns(set) && dt > 0.0) lead(s, set, dt);
+        set.work_next = 0.5 * dt * power_of(s, set);
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Nodes of a specimen in space that a test holds or moves as one: node_sets.hpp of the
-/// plane, without rotation. SI units.
+/// plane, where no set floats (deviation D101). SI units.
 /// Deviation D52: of rigid grains the centres are held, and the grains are free to turn about them.
 #pragma once
 
@@ -23,15 +23,21 @@ int add_node_set(SolidState& s, const std::vector<int>& nodes, std::array<bool, 
 /// @throws std::invalid_argument  if a node of a set lies on the plate
 void require_apart(const SolidState& s, const Plate& plate);
 
-/// Give what is held of a set a velocity [m/s].
+/// Place about which a set turns from now on [m].
+/// @throws std::invalid_argument  if there is no such set, or unless the place is finite
+void set_pivot(SolidState& s, int set, Vector pivot);
+
+/// Give what is held of a set a velocity, which is that of its pivot [m/s], and a spin about that
+/// [rad/s]. A step takes its nodes to where the rotation does.
 /// @throws std::invalid_argument  if there is no such set, or for one along an axis that is free
-void set_velocity_of(SolidState& s, int set, Vector velocity);
+void set_motion_of(SolidState& s, int set, Vector velocity, Vector spin, double dt);
 
 /// What held nodes do in the half step that begins, with the velocities that they have now: by
 /// blocks of the ledger, and by sets.
 void promise_work(SolidState& s, double dt);
 
-/// Forces, ways and works of all sets after a step.
+/// Forces, moments, ways and works of all sets after a step, and where it takes those that turn
+/// next.
 void sum_node_sets(SolidState& s, double dt);
 
 }  // namespace flexpm

@@ -139,14 +139,17 @@ std::vector<double> push_of(const LinearSolid& solid, const SolidDrive& drive)
 /// Ways of what is held: of driven sets that of the loading. Calls give(grain, node, axis, way).
 template <class Give> void give_ways(const SolidState& s, const SolidDrive& drive, Give give)
 {
-    const Vector way = drive.length * drive.direction;
-    const double along[] = { way.x, way.y, way.z };
-    for (int number : drive.sets) {
+    drive.for_each_set([&](int number, double sense) {
         const NodeSet& set = s.node_sets[number];
-        for (std::size_t i = 0; i < set.nodes.size(); ++i)
+        const Vector load = sense * drive.length * drive.direction;
+        for (std::size_t i = 0; i < set.nodes.size(); ++i) {
+            const Vector arm = space_vector(s.grains.reference, set.nodes[i]) - set.pivot;
+            const Vector way = drive.turns ? cross(load, arm) : load;
+            const double along[] = { way.x, way.y, way.z };
             for (int axis = 0; axis < 3; ++axis)
                 if (set.holds(axis)) give(set.grains[i], set.nodes[i], axis, along[axis]);
-    }
+        }
+    });
 }
 
 /// Forces that given ways leave on what is free, added to those of a load.

@@ -18,14 +18,26 @@ namespace flexpm {
 /// @throws std::runtime_error  if the forces do not come to balance
 SolidField elastic_field(const SolidState& s, int threads = 1);
 
-/// What loads a specimen: plates and node sets that go a way, or the nodes of its top along z.
+/// What loads a specimen: plates and node sets that go a way, node sets that turn, or the nodes of
+/// its top along z.
 struct SolidDrive {
     std::vector<int> plates = {};          ///< their numbers
-    Vector direction = { 0.0, 0.0, 1.0 };  ///< a unit vector
-    double length = 1.0;                   ///< of the way for which a field is [m]
+    Vector direction = { 0.0, 0.0, 1.0 };  ///< of the way, or the axis, a unit vector
+    double length = 1.0;                   ///< way [m] or angle [rad] for which a field is
     std::vector<int> sets = {};            ///< their numbers
+    std::vector<int> back_sets = {};       ///< those that turn the other way
+    bool turns = false;                    ///< sets turn about their pivots
 
     bool moves_top() const { return plates.empty() && sets.empty(); }
+
+    /// Calls visit(set, sense) for each set that moves, sense -1 of those that turn back.
+    template <class Visit> void for_each_set(Visit visit) const
+    {
+        for (int set : sets)
+            visit(set, 1.0);
+        for (int set : back_sets)
+            visit(set, -1.0);
+    }
 };
 
 /// The same where plates and node sets hold and load a specimen by themselves, at that way of the

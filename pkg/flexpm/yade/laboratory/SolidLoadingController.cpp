@@ -18,7 +18,7 @@ void SolidLoadingController::action()
 	const Real before = drivenAt;
 	follow(velocity, seenVelocity, drivenAt);
 	if (gripped && drivenAt == before) return;
-	const flexpm::SolidDrive parts { plates, { direction[0], direction[1], direction[2] }, 1, nodeSets };
+	const flexpm::SolidDrive parts { plates, { direction[0], direction[1], direction[2] }, 1, nodeSets, backSets, turns };
 	const auto               drive = parts.moves_top() ? flexpm::drive_of_top(*state) : parts;
 	if (gripped) return flexpm::go_on(*state, drive, drivenAt, scene->dt);
 	const int  threads = solver->threads();

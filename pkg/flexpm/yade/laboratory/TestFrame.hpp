@@ -166,6 +166,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(SolidPartFrame, PartFrame,
 		"The same of a solid, and lines and patches that :yref:`SolidSolver.layLine` and layPatch have laid.",
+		((bool, turns, false,, "Node sets turn about the direction: the load is the sum of their moments [N m], the displacement their angle [rad]."))
 		((Real, middle, 0.,, "x of the middle of the bottom, where a notch opens [m]."))
 		((Real, reach, 0.,, "Distance from there to either side, of the lines whose parting is the column cmod [m]; 0: there is none."))
 	);
@@ -174,7 +175,7 @@ public:
 private:
 	flexpm::PartGeometry parts() const
 	{
-		return { driven, holding, { direction[0], direction[1], direction[2] }, area, length, drivenSets, {}, holdingSets };
+		return { driven, holding, { direction[0], direction[1], direction[2] }, area, length, drivenSets, backSets, holdingSets, turns ? 1. : 0. };
 	}
 };
 REGISTER_SAVED(SolidPartFrame);

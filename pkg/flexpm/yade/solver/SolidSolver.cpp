@@ -172,10 +172,13 @@ py::tuple SolidSolver::nodePlaces(bool bonded)
 
 int SolidSolver::addNodeSet(vector<int> nodes, bool x, bool y, bool z) { return flexpm::add_node_set(state, nodes, { x, y, z }); }
 
-void SolidSolver::moveNodeSet(int set, Vector3r velocity)
+void SolidSolver::turnNodeSet(int set, Vector3r about) { flexpm::set_pivot(state, set, fromYade(about)); }
+
+void SolidSolver::moveNodeSet(int set, Vector3r velocity, Vector3r spin)
 {
-	flexpm::set_velocity_of(state, set, fromYade(velocity));
-	flexpm::promise_work(state, Omega::instance().getScene()->dt);
+	const Real dt = Omega::instance().getScene()->dt;
+	flexpm::set_motion_of(state, set, fromYade(velocity), fromYade(spin), dt);
+	flexpm::promise_work(state, dt);
 }
 
 py::list SolidSolver::nodeSets()
@@ -188,7 +191,9 @@ py::list SolidSolver::nodeSets()
 		d["floats"]       = false;
 		d["place"]        = tupleOf(set.pivot);
 		d["displacement"] = tupleOf(set.displacement);
+		d["angle"]        = tupleOf(set.angle);
 		d["force"]        = tupleOf(set.force);
+		d["moment"]       = tupleOf(set.moment);
 		d["work"]         = set.work;
 		all.append(d);
 	}

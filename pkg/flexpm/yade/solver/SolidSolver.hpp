@@ -35,7 +35,8 @@ public:
 	py::list  plates();
 	py::tuple nodePlaces(bool bonded);
 	int       addNodeSet(vector<int> nodes, bool x, bool y, bool z);
-	void      moveNodeSet(int set, Vector3r velocity);
+	void      turnNodeSet(int set, Vector3r about);
+	void      moveNodeSet(int set, Vector3r velocity, Vector3r spin);
 	py::list  nodeSets();
 	py::tuple elasticConstants();
 	void      clearPressure(int side);
@@ -89,7 +90,8 @@ public:
 		.def("plates", WithGrains<&SolidSolver::plates>::call, "All plates as dictionaries: what they are, where, and what they bear at the last step; those on ends, too.")
 		.def("nodePlaces", WithGrains<&SolidSolver::nodePlaces>::call, (py::arg("bonded") = false), "Nodes that a set may hold, all of deformable grains and the centres of rigid ones, and their x, y and z, now or when bonded [m].")
 		.def("addNodeSet", WithGrains<&SolidSolver::addNodeSet>::call, (py::arg("nodes"), py::arg("x") = true, py::arg("y") = true, py::arg("z") = true), "Hold nodes at rest along the axes named; returns the number of the set.")
-		.def("moveNodeSet", WithGrains<&SolidSolver::moveNodeSet>::call, (py::arg("set"), py::arg("velocity")), "Let a node set move from the next step on [m/s, or m per step].")
+		.def("turnNodeSet", WithGrains<&SolidSolver::turnNodeSet>::call, (py::arg("set"), py::arg("about")), "Let a node set turn about a place [m].")
+		.def("moveNodeSet", WithGrains<&SolidSolver::moveNodeSet>::call, (py::arg("set"), py::arg("velocity"), py::arg("spin") = Vector3r(Vector3r::Zero())), "Let a node set move from the next step on [m/s, or m per step], and turn about its place [rad/s, or rad per step].")
 		.def("nodeSets", WithGrains<&SolidSolver::nodeSets>::call, "All node sets as dictionaries: what they hold, where, and what they bear at the last step.")
 	);
 	// clang-format on

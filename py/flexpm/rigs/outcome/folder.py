@@ -23,6 +23,7 @@ from ...materials.mixing import is_brittle
 from ...models.grains import Model
 from ...models.spheres import SphereModel
 from ...report.pages.page import FILE as REPORT
+from ...report.words import turns_by
 from ...results.cracks import MODES
 from ...results.result import Result
 from ...results.snapshot import Snapshot
@@ -138,8 +139,7 @@ def result_so_far(rig: RigReadings, inputs: Table) -> Result:
         *(_MODULI if without_area or without_length else ()),
     ):
         setattr(result, name, None)
-    turns = bool(drive) and drive["direction"][2] != 0.0 and not rig.solid  # it has moments
-    if drive and not turns and len(result.curve):
+    if drive and not turns_by(drive, solid=rig.solid) and len(result.curve):
         result.peak_load = float(result.curve["load"].max())
     return result
 

@@ -21,7 +21,7 @@ from ..layout import NO_SLIDING, before
 from ..outcome.calls import recording
 from ..outcome.kept import Leaves
 from ..part_rig import PartRig
-from ..parts import Part, RigPart
+from ..parts import HeldNodes, Part, RigPart
 from ..places import SPACE, Place, Vector, require_direction, require_vector
 from .patches import (
     BOTTOM,
@@ -48,8 +48,9 @@ class SolidPartRig(SolidGrains, PartRig):
     """A solid between parts: plates before parts of its outside, and sets of nodes.
 
     Its calls are those of `PartRig`, places and directions with a third component: `support`,
-    `platen`, `hold`, `gauge`, `way_of`, `drive`, then `press`, `load`, `strain_to`, `stress_to`,
-    `relax`, `unload`, `cycle`, `follow`. What is of the plane alone is refused. Deviation D101.
+    `platen`, `hold`, `gauge`, `way_of`, `drive`, `turn`, then `press`, `load`, `strain_to`,
+    `stress_to`, `relax`, `unload`, `cycle`, `follow`. What is of the plane alone is refused.
+    Deviation D101.
     """
 
     _axes = SPACE
@@ -164,9 +165,35 @@ class SolidPartRig(SolidGrains, PartRig):
         """Refuse it: of seats, in the plane alone."""
         raise _of_the_plane(self.angle_of)
 
-    def turn(self, *_: object, **__: object) -> NoReturn:
-        """Refuse it: of the plane alone."""
-        raise _of_the_plane(self.turn)
+    def turn(
+        self,
+        parts: HeldNodes | Sequence[HeldNodes],
+        back: HeldNodes | Sequence[HeldNodes] = (),
+        *,
+        about: Place | None = None,
+        axis: Place = (0.0, 0.0, 1.0),
+        area: float = 1.0,
+        length: float = 1.0,
+        strength: float = 0.0,
+    ) -> None:
+        """Load the specimen by turning held nodes about an axis, each set like a rigid body.
+
+        The record's ``load`` is the sum of their moments about the axis [N m], its ``displacement``
+        the angle of each [rad]; stress and strain are these over `area` and `length`.
+
+        Args:
+            parts: Sets that turn right-handed about the axis.
+            back: Sets that turn the other way by the same angle.
+            about: x, y and z of a point on the axis of all [m]. None: the axis of each goes through
+                the mean of its places. Axes stay where they are (deviation D101).
+            axis: x, y and z of its direction.
+            area, length, strength: As of the plane.
+
+        Raises:
+            InputError: as `drive`.
+        """
+        sizes = {"area": area, "length": length, "strength": strength}
+        self._turn((parts, back), about, require_direction("turn: axis", axis, SPACE), sizes)
 
     def fluid(self, *_: object, **__: object) -> NoReturn:
         """Refuse it: of the plane alone. ``flexpm.rig`` presses on the sides of a solid."""
@@ -179,6 +206,11 @@ class SolidPartRig(SolidGrains, PartRig):
     def elastic(self, *_: object, **__: object) -> NoReturn:
         """Refuse it: of the plane alone. ``flexpm.elastic`` gives the constants of a solid."""
         raise _of_the_plane(self.elastic)
+
+    @property
+    def drives(self) -> Table:
+        """As of the plane, and whether the direction is the axis of a turn."""
+        return {**super().drives, "turns": self._frame.turns}
 
     @property
     def machine(self) -> float:
@@ -284,6 +316,17 @@ class SolidPartRig(SolidGrains, PartRig):
     ) -> None:
         _refuse("drive", machine=soft)
 
+    def _load_by(self, call: str, **asked: object) -> None:
+        super()._load_by(call, **asked, turns=call == "turn")
+
+    def _turn_about(self, part: HeldNodes, pivot: Vector | None) -> None:
+        if pivot is None:
+            return
+        if not self._begun:
+            self.built.solver.turnNodeSet(part.number, pivot)
+        elif not np.allclose(np.subtract(part.place, part.displacement), pivot):
+            raise InputError(f"turn: about = {pivot}, must be as the record has begun")
+
     def _begin_pressures(self, numbers: list[int], values: list[float]) -> Span:
         self._free(numbers)
         return super()._begin_pressures(numbers, values)
@@ -306,7 +349,11 @@ class SolidPartRig(SolidGrains, PartRig):
         frame = self._frame
         self._let_go(frame.driven)
         loading = wrapper.SolidLoadingController(
-            plates=frame.driven, nodeSets=frame.drivenSets, direction=frame.direction
+            plates=frame.driven,
+            nodeSets=frame.drivenSets,
+            backSets=frame.backSets,
+            direction=frame.direction,
+            turns=frame.turns,
         )
         self.built.add_engines(before=(loading,))
         return loading
