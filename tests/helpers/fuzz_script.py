@@ -184,7 +184,8 @@ class Script:
 
     def do_turn(self, about: Any, parts: list[Any], back: list[Any]) -> None:
         if rig := self._parts():
-            rig.turn(self._picked(parts), self._picked(back), about=about)
+            place = None if about is None else self._at(*about)
+            rig.turn(self._picked(parts), self._picked(back), about=place)
 
     def do_press(self, part: list[Any], pressure: float) -> None:
         if rig := self._parts():

@@ -38,6 +38,19 @@ rig.unload()
 rig.follow([0.0, 1.0, 2.0], [0.0, 200.0, 100.0], by="load")
 rig.load(flexpm.Loading(rate=RATE, kind="waiting"))
 """
+#: Held nodes that turn, and turn back, in a folder.
+TWIST = """
+import flexpm
+box = flexpm.Specimen.box(0.012, 0.012, 0.016, seed=1)
+
+rig = flexpm.SolidPartRig(flexpm.build(box, model="rigid"), out="out", checkpoint_interval=INTERVAL)
+low = rig.hold(box=((0, 0, 0), (0.012, 0.012, 0.004)))
+high = rig.hold(box=((0, 0, 0.012), (0.012, 0.012, 0.016)))
+rig.turn(high, about=(0.006, 0.006, 0.0), strength=10.0)
+rig.strain_to(5e-4)
+rig.cycle(2.0, 1, low=0.0)
+rig.load(flexpm.Loading(rate=RATE, kind="waiting"))
+"""
 
 
 @pytest.fixture(scope="module")
@@ -220,6 +233,16 @@ def test_a_killed_test_goes_on_to_the_same_bits(whole, tmp_path):
     for number, ends in enumerate(killed(tmp_path, SCRIPT, moments)):
         assert ends == [*kills, 0]
         require_same(tmp_path / str(number), whole)
+
+
+@pytest.mark.long
+def test_a_killed_twist_goes_on_to_the_same_bits(tmp_path):
+    assert ended(started(tmp_path, TWIST)) == (0, "")
+    found = content(tmp_path / "out")
+    assert found["inputs"]["drive"]["turns"]
+    (ends,) = killed(tmp_path, TWIST, [drawn(5, [signal.SIGKILL, signal.SIGTERM], found["steps"])])
+    assert ends == [signal.SIGKILL, signal.SIGTERM, 0]
+    require_same(tmp_path / "0", tmp_path / "out")
 
 
 def test_it_is_made_again_to_the_same_bits(whole, tmp_path):

@@ -172,7 +172,12 @@ py::tuple SolidSolver::nodePlaces(bool bonded)
 
 int SolidSolver::addNodeSet(vector<int> nodes, bool x, bool y, bool z) { return flexpm::add_node_set(state, nodes, { x, y, z }); }
 
-void SolidSolver::turnNodeSet(int set, Vector3r about) { flexpm::set_pivot(state, set, fromYade(about)); }
+void SolidSolver::turnNodeSet(int set, py::object about)
+{
+	if (about.is_none()) throw std::invalid_argument("turnNodeSet: about = None, must be a place: no node set of a solid floats");
+	const Vector3r pivot = py::extract<Vector3r>(about);
+	flexpm::set_pivot(state, set, fromYade(pivot));
+}
 
 void SolidSolver::moveNodeSet(int set, Vector3r velocity, Vector3r spin)
 {

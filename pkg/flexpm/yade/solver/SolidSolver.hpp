@@ -35,7 +35,7 @@ public:
 	py::list  plates();
 	py::tuple nodePlaces(bool bonded);
 	int       addNodeSet(vector<int> nodes, bool x, bool y, bool z);
-	void      turnNodeSet(int set, Vector3r about);
+	void      turnNodeSet(int set, py::object about);
 	void      moveNodeSet(int set, Vector3r velocity, Vector3r spin);
 	py::list  nodeSets();
 	py::tuple elasticConstants();
