@@ -200,10 +200,13 @@ class SolidModel(Model):
             yade.O.dt = 1.0
             self.solver.scaleMasses()
 
-    def snapshot(self) -> Snapshot | SolidSnapshot:
+    def snapshot(self) -> SolidSnapshot:
         """The present state as plain arrays."""
-        source = OF_TRIANGLES if self.name == "flexible" else OF_GRAINS
-        return snapshot_of(cast(wrapper.SolidSolver, self.solver), source, self.minerals)
+        return self.state_of(self.solver.snapshot())
+
+    def state_of(self, found: Table) -> SolidSnapshot:
+        """A state of this solid, from its arrays."""
+        return snapshot_of(found, self.of_snapshots["stress_source"], self.minerals)
 
     @property
     def parting(self) -> tuple[int | None, float]:

@@ -11,6 +11,7 @@ from yade import wrapper
 from .._flexpm import solid_constants
 from ..arrays import IntArray
 from ..errors import InputError, SimulationError
+from ..files import Table
 from ..materials.material import Material
 from ..materials.mixing import description, mineral_materials, pair_materials
 from ..require import require_one_of
@@ -52,19 +53,16 @@ def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.
     return solver
 
 
-def snapshot_of(
-    solver: wrapper.SolidSolver, source: str, minerals: IntArray | None = None
-) -> SolidSnapshot:
-    """The present state of a solid.
+def snapshot_of(found: Table, source: str, minerals: IntArray | None = None) -> SolidSnapshot:
+    """A state of a solid.
 
     Args:
-        solver: Holds the grains.
+        found: Its arrays, as `SolidSolver.snapshot` gives them.
         minerals: Index of each grain's mineral, or None if all grains are alike.
         source: What the stress of a tetrahedron is: its own or its grain's.
     """
     from ..results.solids.state import SolidSnapshot
 
-    found = solver.snapshot()
     nodes = found.pop("corner_nodes")
     middle = found["reference"][nodes].mean(axis=1)
     return SolidSnapshot(

@@ -250,6 +250,7 @@ class PartFrame(TestFrame):
     ) -> _Named: ...
 
 class SolidPartFrame(PartFrame):
+    def elasticState(self) -> _Named: ...  # type: ignore[override]
     turns: bool
     middle: float
     reach: float

@@ -313,6 +313,62 @@ def test_held_nodes_that_turn_twist_a_solid(model, tmp_path):
     assert "moment" in (tmp_path / "twisted" / "report.html").read_text()
 
 
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_the_static_solution_of_a_solid_is_where_steps_lead(model):
+    tall = flexpm.Specimen.box(SIZE, SIZE, 2.0 * SIZE, seed=1)
+    rig = rig_of(tall, model)
+    floor, top = rig.platen(0, bonded=True), rig.platen(2, bonded=True)
+    with pytest.raises(InputError, match="driven parts = none"):
+        rig.elastic(way=1e-6)
+    rig.drive(top, (0, 0, -1), against=floor, strength=1e4)
+    with pytest.raises(InputError, match="pressures = given, must be left out"):
+        rig.elastic({top: 1e6})
+    with pytest.raises(InputError, match="way = 1e-06, must be left out beside a load"):
+        rig.elastic(way=1e-6, load=1.0)
+    found = rig.elastic(way=1e-6)
+    assert found.load == pytest.approx(1e-6 * rig.scales().modulus, rel=1e-9)
+    assert found.force(top) == pytest.approx((0.0, 0.0, -found.load), abs=1e-6 * found.load)
+    assert found.force(floor) == pytest.approx((0.0, 0.0, found.load), abs=1e-6 * found.load)
+    assert found.displacement(top) == pytest.approx((0.0, 0.0, -1e-6))
+    tenfold = rig.elastic(load=10.0 * found.load)
+    assert tenfold.way == pytest.approx(1e-5, rel=1e-9)
+    for name in ("tetrahedron_stress", "point_opening", "point_traction"):
+        small, large = getattr(found, name), getattr(tenfold, name)
+        assert large == pytest.approx(10.0 * small, rel=1e-9, abs=1e-9 * np.abs(large).max())
+    assert yade.O.iter == 0
+    rig.strain_to(1e-6)
+    way, load = rig.record["displacement"][-1], rig.record["load"][-1]
+    assert load / way == pytest.approx(found.load / found.way, rel=5e-3)
+    # the grains are where the steps have led them
+    led = rig.built.snapshot().positions - found.reference
+    told = way / found.way * (found.positions - found.reference)
+    assert np.abs(led - told).max() < 0.02 * np.abs(told).max()
+    with pytest.raises(InputError, match="steps of the scene = .* must be 0"):
+        rig.elastic(way=1e-6)
+
+
+def test_the_static_solution_of_a_twist_turns_what_is_held():
+    rig = rig_of(flexpm.Specimen.box(SIZE, SIZE, 2.0 * SIZE, seed=1))
+    low = rig.hold(box=((0, 0, 0), (SIZE, SIZE, 0.3 * SIZE)))
+    high = rig.hold(where=lambda _x, _y, z: z > 1.7 * SIZE)
+    about = np.array([0.5 * SIZE, 0.5 * SIZE, 0.0])
+    rig.turn(high, about=tuple(about))
+    found = rig.elastic(load=1.0)
+    assert found.load == pytest.approx(1.0)
+    assert found.moment(high)[2] == pytest.approx(1.0, rel=1e-6)
+    assert found.angle(high) == pytest.approx((0.0, 0.0, found.way))
+    # nothing else acts: all forces sum to 0, and so do moments about a place
+    couple = found.load / SIZE  # forces of this size make the moment
+    assert np.add(found.force(high), found.force(low)) == pytest.approx(0.0, abs=1e-5 * couple)
+    across = np.cross(np.subtract(low.place, about), found.force(low))
+    balance = np.add(found.moment(high), found.moment(low)) + across
+    assert balance == pytest.approx(0.0, abs=1e-5)
+    held = found.reference[:, 2] > 1.7 * SIZE
+    arms = found.reference[held] - about
+    way = found.way * np.cross([0.0, 0.0, 1.0], arms)
+    assert found.positions[held] - found.reference[held] == pytest.approx(way, rel=1e-6, abs=1e-14)
+
+
 def test_a_solid_turns_about_an_axis_as_told(box):
     rig = rig_of(box)
     held = rig.hold(ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.3 * SIZE))

@@ -224,21 +224,28 @@ SolidDrive drive_of(const PartGeometry& parts)
         parts.turn != 0.0 };
 }
 
+SolidPartState elastic_part_state(const SolidState& s, const PartGeometry& parts, double dt)
+{
+    check(s, parts);
+    const SolidField field = elastic_field(s, drive_of(parts));
+    SolidPartState found { s };
+    found.softening = elastic_strain(s, field, 1.0);  // a way: the field is that of 1 m
+    found.way = std::min(small_strain * parts.length, small_part * found.softening);
+    start(found.state, drive_of(parts), field, found.way, 1.0, true, dt);
+    sum_node_sets(found.state, 0.0);
+    const EndForces ends = ends_of(found.state, parts);
+    found.load = 0.5 * (ends.top - ends.bottom);
+    return found;
+}
+
 TestScales solid_part_scales(
     const SolidState& s, const PartGeometry& parts, double strength, double dt)
 {
-    check(s, parts);
     check_not_negative("strength", strength, "Pa");
-    const SolidField field = elastic_field(s, drive_of(parts));
-    const double softening = elastic_strain(s, field, 1.0);  // a way: the field is that of 1 m
-    const double way = std::min(small_strain * parts.length, small_part * softening);
-    SolidState moved = s;
-    start(moved, drive_of(parts), field, way, 1.0, true, dt);
-    sum_node_sets(moved, 0.0);
-    const EndForces ends = ends_of(moved, parts);
-    const double stiffness = 0.5 * (ends.top - ends.bottom) / way;
+    const SolidPartState moved = elastic_part_state(s, parts, dt);
+    const double stiffness = moved.load / moved.way, softening = moved.softening;
     check_positive("stiffness that the driven plates feel", stiffness, "N/m");
-    const double mass = 2.0 * kinetic_of_velocities(moved);
+    const double mass = 2.0 * kinetic_of_velocities(moved.state);
     const double width = std::sqrt(parts.area), modulus = stiffness * parts.length / parts.area;
     if (strength == 0.0) strength = strength_over_softening * softening / parts.length * modulus;
     return { std::sqrt(3.0 * mass / stiffness) / dt, modulus, strength, parts.length, width,

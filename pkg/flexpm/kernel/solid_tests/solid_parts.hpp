@@ -36,6 +36,18 @@ SolidFrame solid_part_frame(const SolidState& s, const PartGeometry& parts);
 /// turns is its axis.
 SolidDrive drive_of(const PartGeometry& parts);
 
+/// Where its elastic solution takes a specimen.
+struct SolidPartState {
+    SolidState state;        ///< with the forces of all parts; what loads goes 1 m or rad in 1 s
+    double way = 0.0;        ///< of what is driven, so small that all is linear [m, or rad]
+    double load = 0.0;       ///< of the driven parts [N, or N m]
+    double softening = 0.0;  ///< way at which the first point of the unloaded specimen softens
+};
+
+/// @throws std::invalid_argument  as solid_part_frame()
+/// @throws std::runtime_error     if the forces do not come to balance
+SolidPartState elastic_part_state(const SolidState& s, const PartGeometry& parts, double dt);
+
 /// Its scales, from the elastic solution, as part_scales() has them; `width` is the root of the
 /// area.
 /// @param strength  stress that the test may reach, roughly [Pa]; 0: twice that at which the first

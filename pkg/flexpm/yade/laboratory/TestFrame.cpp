@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/TestFrame.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
+#include <flexpm/yade/solver/SolidSolver.hpp>
 #include <flexpm/yade/solver/snapshot_dict.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
@@ -176,6 +177,35 @@ std::optional<TestFrame::Measure> SolidPartFrame::measure(const string& column, 
 	if (column != "cmod") return {};
 	const flexpm::Mouth mouth { middle, reach };
 	return Measure { flexpm::mouth_opening(solid, mouth), flexpm::mouth_opening(solid, mouth, velocity) };
+}
+
+py::dict SolidPartFrame::elasticState() const
+{
+	const auto  solver = GrainSolver::ofScene(*Omega::instance().getScene());
+	const auto& state  = solidOf(*solver);
+	if (state.step > 0) flexpm::refuse("steps of the scene", Real(state.step), "", "must be 0: the static solution of a solid is that of the unloaded one");
+	const auto found  = flexpm::elastic_part_state(state, parts(), Omega::instance().getScene()->dt);
+	const auto append = [](py::list& to, const auto&... vectors) {
+		py::list values;
+		for (const flexpm::Vector& v : { vectors... }) {
+			values.append(v.x);
+			values.append(v.y);
+			values.append(v.z);
+		}
+		to.append(values);
+	};
+	py::list plates, sets;
+	for (const flexpm::Plate& p : found.state.plates)
+		append(plates, p.force, p.displacement);
+	for (const flexpm::NodeSet& s : found.state.node_sets)
+		append(sets, s.force, s.displacement, s.moment, s.angle);
+	py::dict d;
+	d["snapshot"]  = SolidSolver::snapshotOf(found.state);
+	d["plates"]    = plates;
+	d["node_sets"] = sets;
+	d["way"]       = found.way;
+	d["load"]      = found.load;
+	return d;
 }
 
 vector<string> SolidPartFrame::columns() const

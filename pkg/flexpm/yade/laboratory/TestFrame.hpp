@@ -162,13 +162,17 @@ public:
 	std::optional<Measure>   measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const override;
 	vector<string>           columns() const override;
 	vector<Real>             values(GrainSolver& solver, Real stress, Real strain) const override;
+	boost::python::dict      elasticState() const;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(SolidPartFrame, PartFrame,
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SolidPartFrame, PartFrame,
 		"The same of a solid, and lines and patches that :yref:`SolidSolver.layLine` and layPatch have laid.",
 		((bool, turns, false,, "Node sets turn about the direction: the load is the sum of their moments [N m], the displacement their angle [rad]."))
 		((Real, middle, 0.,, "x of the middle of the bottom, where a notch opens [m]."))
 		((Real, reach, 0.,, "Distance from there to either side, of the lines whose parting is the column cmod [m]; 0: there is none."))
+		, /* ctor */
+		, .def("elasticState", &SolidPartFrame::elasticState,
+			"Where the linear solution takes the scene's solid, which no step has moved, for a way or angle of what is driven that is so small that all is linear. Returns the state as SolidSolver.snapshot() has it, forces and displacements of plates, those of node sets with moments and angles, way and load.")
 	);
 	// clang-format on
 

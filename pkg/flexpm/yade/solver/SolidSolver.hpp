@@ -45,10 +45,12 @@ public:
 	void      resetEnergyBalance();
 	py::tuple sectionNodes(Real place, Vector3r direction, Real width);
 	py::dict  snapshot();
-	py::dict  counts();
-	py::dict  overlaps();
-	py::dict  balance();
-	Real      crossingSteps(Real diameter);
+	/// The same of any state.
+	static py::dict snapshotOf(const flexpm::SolidState& state);
+	py::dict        counts();
+	py::dict        overlaps();
+	py::dict        balance();
+	Real            crossingSteps(Real diameter);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SolidSolver, GrainSolver,

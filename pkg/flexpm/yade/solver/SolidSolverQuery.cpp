@@ -72,7 +72,9 @@ py::dict SolidSolver::balance()
 
 Real SolidSolver::crossingSteps(Real diameter) { return flexpm::ball_crossing_steps(state, diameter, Omega::instance().getScene()->dt); }
 
-py::dict SolidSolver::snapshot()
+py::dict SolidSolver::snapshot() { return snapshotOf(state); }
+
+py::dict SolidSolver::snapshotOf(const flexpm::SolidState& state)
 {
 	auto     s = flexpm::take_snapshot(state);
 	py::dict d;

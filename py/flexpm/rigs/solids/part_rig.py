@@ -23,6 +23,7 @@ from ..outcome.kept import Leaves
 from ..part_rig import PartRig
 from ..parts import HeldNodes, Part, RigPart
 from ..places import SPACE, Place, Vector, require_direction, require_vector
+from ..statics.solid_state import SolidPartStatics
 from .patches import (
     BOTTOM,
     INWARDS,
@@ -44,13 +45,13 @@ _UPRIGHT = 0.5
 
 
 @recording
-class SolidPartRig(SolidGrains, PartRig):
+class SolidPartRig(SolidGrains, SolidPartStatics, PartRig):
     """A solid between parts: plates before parts of its outside, and sets of nodes.
 
     Its calls are those of `PartRig`, places and directions with a third component: `support`,
-    `platen`, `hold`, `gauge`, `way_of`, `drive`, `turn`, then `press`, `load`, `strain_to`,
-    `stress_to`, `relax`, `unload`, `cycle`, `follow`. What is of the plane alone is refused.
-    Deviation D101.
+    `platen`, `hold`, `gauge`, `way_of`, `drive`, `turn`, `elastic`, then `press`, `load`,
+    `strain_to`, `stress_to`, `relax`, `unload`, `cycle`, `follow`. What is of the plane alone is
+    refused. Deviation D101.
     """
 
     _axes = SPACE
@@ -202,10 +203,6 @@ class SolidPartRig(SolidGrains, PartRig):
     def excavate(self, *_: object, **__: object) -> NoReturn:
         """Refuse it: of the plane alone."""
         raise _of_the_plane(self.excavate)
-
-    def elastic(self, *_: object, **__: object) -> NoReturn:
-        """Refuse it: of the plane alone. ``flexpm.elastic`` gives the constants of a solid."""
-        raise _of_the_plane(self.elastic)
 
     @property
     def drives(self) -> Table:
