@@ -159,15 +159,17 @@ class HeldNodes(RigPart):
         axes = SPACE if self._is_in_space else PLANE
         given = (0.0,) * len(axes) if velocity is None else velocity
         x, y, z = require_vector("move: velocity", given, "m/s", axes)
+        if not self._is_in_space:
+            about = (0.0, 0.0, require_number("move: spin", spin, unit="rad/s"))
+        else:
+            turns = (0.0, 0.0, 0.0) if spin == 0.0 else spin
+            about = require_vector("move: spin", turns, "rad/s", axes)
         solver = self.solver
         try:
             if isinstance(solver, wrapper.SolidSolver):
-                turns = (0.0, 0.0, 0.0) if spin == 0.0 else spin
-                about = require_vector("move: spin", turns, "rad/s", axes)
                 solver.moveNodeSet(self.number, (x, y, z), about)
             else:
-                spin = require_number("move: spin", spin, unit="rad/s")
-                solver.moveNodeSet(self.number, (x, y, spin))
+                solver.moveNodeSet(self.number, (x, y, about[2]))
         except ValueError as error:
             raise InputError(f"move: {error}") from None
 
