@@ -48,7 +48,9 @@ template <bool Wide> FLEXPM_INLINE void spread_pair(const double* of_nodes, doub
 {
     const Two pair = *reinterpret_cast<const Two*>(of_nodes);
     if constexpr (Wide) {
-        *reinterpret_cast<Eight*>(to) = __builtin_shufflevector(pair, pair, 0, 0, 0, 0, 1, 1, 1, 1);
+        // GCC makes a shuffle to eight by way of memory, which waits for the cache
+        const double a = pair[0], b = pair[1];
+        *reinterpret_cast<Eight*>(to) = Eight { a, a, a, a, b, b, b, b };
     } else {
         row_of_four(to) = __builtin_shufflevector(pair, pair, 0, 0, 0, 0);
         row_of_four(to + 4) = __builtin_shufflevector(pair, pair, 1, 1, 1, 1);
