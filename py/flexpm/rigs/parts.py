@@ -162,8 +162,8 @@ class HeldNodes(RigPart):
         if not self._is_in_space:
             about = (0.0, 0.0, require_number("move: spin", spin, unit="rad/s"))
         else:
-            turns = (0.0, 0.0, 0.0) if spin == 0.0 else spin
-            about = require_vector("move: spin", turns, "rad/s", axes)
+            still = isinstance(spin, int | float) and spin == 0.0
+            about = require_vector("move: spin", (0.0, 0.0, 0.0) if still else spin, "rad/s", axes)
         solver = self.solver
         try:
             if isinstance(solver, wrapper.SolidSolver):

@@ -372,7 +372,7 @@ def test_the_static_solution_of_a_twist_turns_what_is_held():
 def test_a_solid_turns_about_an_axis_as_told(box):
     rig = rig_of(box)
     held = rig.hold(ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.3 * SIZE))
-    held.move(spin=(0.0, 1e-3, 0.0))
+    held.move(spin=np.array([0.0, 1e-3, 0.0]))
     for _ in range(20):
         yade.O.step()
     assert held.angle == pytest.approx((0.0, 0.02, 0.0), rel=1e-9)

@@ -25,9 +25,9 @@ _LINEAR = (
 class SolidElasticState(SolidSnapshot):
     """Where an unloaded solid between parts would come to rest, if all of it stayed elastic.
 
-    It is a snapshot as any other: displacements, stresses, sections, its own and of its parts, grow
-    in proportion with the way. What touches a plate stays with it, and slides as its friction is
-    (deviation D101).
+    It is a snapshot as any other: displacements, stresses and sections grow in proportion with the
+    way. What touches a plate stays with it, pulled or pressed; smooth plates let it slide, those
+    with friction hold it (deviation D101).
     """
 
     way: float = 0.0  #: of the driven parts along the loading [m, or rad]
