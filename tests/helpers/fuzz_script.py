@@ -193,8 +193,7 @@ class Script:
 
     def do_elastic(self, part: list[Any], pressure: Any, way: Any, load: Any) -> None:
         if rig := self._parts():
-            pressures = None if self._is_solid() else {self._picked(part): pressure}
-            rig.elastic(pressures, way=way, load=load)
+            rig.elastic({self._picked(part): pressure}, way=way, load=load)
 
     def do_press_all(self, parts: list[Any], pressures: list[Any]) -> None:
         if rig := self._parts():

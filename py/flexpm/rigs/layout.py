@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -18,7 +17,6 @@ from ..models.grains import Model
 from ..require import (
     NOT_NEGATIVE,
     POSITIVE,
-    Bounds,
     quoted,
     require_flag,
     require_number,
@@ -26,17 +24,11 @@ from ..require import (
 )
 from ..specimens.kernel_input import Circle
 from .parts import HeldNodes, Part, RigPart
-from .places import PLANE, SPACE, Place, Where, in_region, require_vector
+from .places import PLANE, SPACE, Jaw, Place, Where, in_region, require_vector
 
 #: Length of a support unless told otherwise, in mean diameters of the grains [-]: a plate does not
 #: turn with a beam, which would rest on the inner end of a long one.
 _SUPPORT = 0.5
-#: Largest angle of a jaw, an edge further round does not face it, and the limits [rad].
-_WIDEST = 2.0 * math.pi / 3.0
-_ANGLE = Bounds(above=0.0, at_most=_WIDEST)
-#: A jaw's place is off the rim by at most this part of the radius; radii that differ by less than
-#: the other part are one [-].
-_OFF_RIM, _SAME = 0.05, 1e-9
 #: Traits of a plate that are told where it has them.
 _EXTRA = ("strip", "radius", "machine", "seated")
 #: Friction of a part that is pinned: it does not slide as long as it presses [-].
@@ -105,7 +97,7 @@ class PartLayout:
             require_vector("support: normal", normal, ""),
             NO_SLIDING if require_flag("support: pinned", pinned) else friction,
             require_flag("support: bonded", bonded),
-            _strip("support", strip),
+            strip_of("support", strip),
             require_flag("support: seated", seated),
         )
         solver = self.built.solver
@@ -139,7 +131,7 @@ class PartLayout:
         side = require_whole("platen: side", side)
         friction = require_number("platen: friction", friction, NOT_NEGATIVE)
         bonded = require_flag("platen: bonded", bonded)
-        layer, turns = _strip("platen", strip), require_flag("platen: seated", seated)
+        layer, turns = strip_of("platen", strip), require_flag("platen: seated", seated)
         solver = self.built.solver
         return self._plate(
             "platen",
@@ -177,25 +169,14 @@ class PartLayout:
         """
         centre, rim = self._disc()
         x, y, _ = require_vector("jaw: place", place)
-        way = np.array([x - centre[0], y - centre[1]])
-        off = abs(float(np.hypot(*way)) - rim)
-        if off > _OFF_RIM * rim:
-            raise InputError(
-                f"jaw: place = ({x:g}, {y:g}) m, must be on the rim, is {off:.3g} m off"
-            )
-        radius = require_number("jaw: radius", radius, POSITIVE, "m")
-        if radius < rim * (1.0 - _SAME):
-            raise InputError(f"jaw: radius = {radius:g} m, must be >= {rim:g} m, the disc's")
-        if angle is None and radius <= rim * (1.0 + _SAME):
-            raise InputError("jaw: angle = None, must be given for the disc's own radius")
-        way *= rim / float(np.hypot(*way))
+        jaw = Jaw.of((x, y), centre, rim, radius, angle)
         values = (
-            (centre[0] + way[0], centre[1] + way[1], 0.0),
+            (centre[0] + jaw.towards[0], centre[1] + jaw.towards[1], 0.0),
             (*centre, 0.0),
-            max(radius, rim),
-            _WIDEST if angle is None else require_number("jaw: angle", angle, _ANGLE, "rad"),
+            jaw.radius,
+            jaw.angle,
             require_number("jaw: friction", friction, NOT_NEGATIVE),
-            _strip("jaw", strip),
+            strip_of("jaw", strip),
         )
         solver = self.built.solver
         return self._plate(
@@ -344,7 +325,7 @@ def _require_axes(axes: object, there: str) -> str:
     raise InputError(f"hold: axes = {quoted(axes)}, must be {rule}")
 
 
-def _strip(label: str, strip: float | None) -> float:
+def strip_of(label: str, strip: float | None) -> float:
     """Stiffness per area of a soft layer [Pa/m]; 0: there is none."""
     return 0.0 if strip is None else require_number(f"{label}: strip", strip, POSITIVE, "Pa/m")
 

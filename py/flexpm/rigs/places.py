@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points, directions, regions and names of columns, as scripts give them. SI units.
+"""Points, directions, regions, jaws and names of columns, as scripts give them. SI units.
 
 Places of the plane are x and y, those of space x, y and z.
 """
@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray
 from ..errors import InputError
-from ..require import POSITIVE, quoted, require_number, require_text
+from ..require import POSITIVE, Bounds, quoted, require_number, require_text
 
 #: x and y, and z of space.
 Place = Sequence[float]
@@ -23,6 +24,14 @@ PLANE, SPACE = "xy", "xyz"
 Where = Callable[..., BoolArray]
 #: x, y and z, 0 in the plane, as YADE has vectors.
 Vector = tuple[float, float, float]
+#: Largest angle of a jaw, an edge further round does not face it, and the limits [rad].
+_WIDEST = 2.0 * math.pi / 3.0
+_ANGLE = Bounds(above=0.0, at_most=_WIDEST)
+#: A jaw's place is off the rim by at most this part of the radius; radii that differ by less than
+#: the other part are one [-].
+_OFF_RIM, _SAME = 0.05, 1e-9
+#: Points of an arc that is drawn.
+_POINTS = 25
 
 
 def require_vector(label: str, value: object, unit: str = "m", axes: str = PLANE) -> Vector:
@@ -114,3 +123,54 @@ def _several(refusal: str, value: object, count: int = 2) -> list[object]:
     if len(found) != count or isinstance(value, str):
         raise InputError(refusal)
     return found
+
+
+@dataclass(frozen=True)
+class Jaw:
+    """An arc around the rim of a disc."""
+
+    towards: tuple[float, float]  #: way from the disc's centre to its middle [m]
+    radius: float  #: [m]
+    angle: float  #: part of the disc before it [rad]
+
+    @classmethod
+    def of(
+        cls, at: Place, centre: tuple[float, float], rim: float, radius: object, angle: object
+    ) -> Jaw:
+        """A jaw as a rig is asked for it.
+
+        Args:
+            at: Where it is to lie, across the disc's axis [m].
+            centre: The disc's centre [m].
+            rim: The disc's radius [m].
+            radius: That of the jaw, at least the disc's [m].
+            angle: Part of the disc before it [rad]; None: the widest, not of the disc's own radius.
+
+        Raises:
+            InputError: for a place off the rim, or a radius or an angle out of range.
+        """
+        way = (at[0] - centre[0], at[1] - centre[1])
+        long = float(np.hypot(*way))
+        off = abs(long - rim)
+        if off > _OFF_RIM * rim:
+            raise InputError(
+                f"jaw: place = ({at[0]:g}, {at[1]:g}) m, must be on the rim, is {off:.3g} m off"
+            )
+        radius = require_number("jaw: radius", radius, POSITIVE, "m")
+        if radius < rim * (1.0 - _SAME):
+            raise InputError(f"jaw: radius = {radius:g} m, must be >= {rim:g} m, the disc's")
+        if angle is None and radius <= rim * (1.0 + _SAME):
+            raise InputError("jaw: angle = None, must be given for the disc's own radius")
+        before = _WIDEST if angle is None else require_number("jaw: angle", angle, _ANGLE, "rad")
+        there = rim / long
+        return cls((way[0] * there, way[1] * there), max(radius, rim), before)
+
+    def trace(self, rim: float) -> list[list[float]]:
+        """Its arc about a disc of a radius [m], whose centre is at 0."""
+        out = np.array(self.towards) / rim
+        at = rim * np.sin(0.5 * self.angle) * np.linspace(-1.0, 1.0, _POINTS)
+        rise = self.radius - np.sqrt(self.radius**2 - at**2)
+        along = np.array([-out[1], out[0]])
+        arc = np.array(self.towards) + at[:, None] * along - rise[:, None] * out
+        line: list[list[float]] = arc.tolist()
+        return line

@@ -250,7 +250,8 @@ class PartFrame(TestFrame):
     ) -> _Named: ...
 
 class SolidPartFrame(PartFrame):
-    def elasticState(self) -> _Named: ...  # type: ignore[override]
+    def elasticState(self, floating: list[int]) -> _Named: ...  # type: ignore[override]
+    def pressedState(self, plates: list[int], pressures: list[float]) -> _Named: ...
     turns: bool
     middle: float
     reach: float
@@ -410,6 +411,7 @@ class SolidSolver(GrainSolver):
         high: _Vector,
         friction: float = ...,
         bonded: bool = ...,
+        strip: float = ...,
     ) -> int: ...
     def findPatch(
         self,
@@ -418,6 +420,23 @@ class SolidSolver(GrainSolver):
         high: _Vector,
         friction: float = ...,
         bonded: bool = ...,
+        strip: float = ...,
+    ) -> int: ...
+    def layJaw(
+        self,
+        towards: _Vector,
+        ratio: float,
+        angle: float,
+        friction: float = ...,
+        strip: float = ...,
+    ) -> int: ...
+    def findJaw(
+        self,
+        towards: _Vector,
+        ratio: float,
+        angle: float,
+        friction: float = ...,
+        strip: float = ...,
     ) -> int: ...
     def freePlate(self, plate: int) -> None: ...
     def moveNodeSet(self, set: int, velocity: _Vector, spin: _Vector = ...) -> None: ...

@@ -17,14 +17,6 @@ namespace {
 
 constexpr double damping = 0.7, dt = 1.0;
 
-Packing disc()
-{
-    const double side = solid_samples::side;
-    const Solid solid = Solid::disc(6.0 * side, 3.0 * side, side);
-    return { solid,
-        polyhedra(flexpm_test::packed_spheres(solid, 120, 3), solid, { 0.1 * side, false }) };
-}
-
 /// Area of the facet that a plate touches [m^2].
 double facet_area(const Packing& p)
 {

@@ -193,3 +193,119 @@ TEST_CASE("A plate that no load moves takes none", "[solids]")
     CHECK(opening_in_space(s.grains.displacement, gauge, up) == 0.0);
     CHECK_THROWS_WITH(gauge_points(s, middle, middle), Catch::Contains("length of a gauge = 0 m"));
 }
+
+namespace {
+
+/// A box on its base, 0, with a lid, 1, and a wall on the right, 2, that loads may move; the left
+/// is held by 3.
+SolidState between_walls(const Packing& p, bool rigid)
+{
+    SolidState s = made(p, rigid);
+    for (const Vector inwards : { up, -1.0 * up, -1.0 * right, right })
+        add_patch_plate(s, side(p, inwards, -a, p.solid.high.z + a));
+    for (int plate : { 1, 2 })
+        free_plate(s, plate);
+    scale_masses(s, damping, dt);
+    return s;
+}
+
+}  // namespace
+
+TEST_CASE("A pressed plate that is driven has the scales of one that is not", "[solids]")
+{
+    const Packing p = packing(60, 5);
+    const Vector top = p.solid.high;
+    const PartGeometry parts { { 1 }, { 0 }, -1.0 * up, top.x * top.y, top.z };
+    for (const bool rigid : { false, true }) {
+        double moduli[2];
+        for (const bool loaded : { false, true }) {
+            SolidState s = made(p, rigid);
+            for (const double sign : { 1.0, -1.0 })
+                add_patch_plate(s, side(p, sign * up, 0.0, 0.0));
+            if (loaded) free_plate(s, 1);  // the last plate, and the only one under a load
+            scale_masses(s, damping, dt);
+            moduli[loaded] = solid_part_scales(s, parts, 1e6, dt).modulus;
+        }
+        CHECK(moduli[1] == moduli[0]);
+    }
+}
+
+TEST_CASE("Static solutions under pressures bear them and superpose", "[solids]")
+{
+    const Packing p = packing(60, 5);
+    const Vector top = p.solid.high;
+    const PartGeometry parts { { 1 }, { 0 }, -1.0 * up, top.x * top.y, top.z };
+    const PartGeometry none { {}, {}, up, 1.0, 1.0 };
+    const double lid = 4e6, wall = 1e6;
+    for (const bool rigid : { false, true }) {
+        const SolidState s = between_walls(p, rigid);
+        const auto pressed = [&](const std::vector<PlatePressure>& pressures) {
+            return pressed_part_state(s, none, pressures);
+        };
+        const SolidPartState both = pressed({ { 1, lid }, { 2, wall } });
+        CHECK(both.load == 0.0);
+        CHECK(both.way > 0.0);
+        const auto force = [&](int plate) {
+            return (1.0 / both.way) * both.state.plates[plate].force;
+        };
+        CHECK(-force(1).z == Approx(lid * s.plates[1].width).epsilon(1e-6));
+        CHECK(force(0).z == Approx(lid * s.plates[1].width).epsilon(1e-6));
+        CHECK(-force(2).x == Approx(wall * s.plates[2].width).epsilon(1e-6));
+        CHECK(force(3).x == Approx(wall * s.plates[3].width).epsilon(1e-6));
+        const SolidPartState first = pressed({ { 1, lid }, { 2, 0.0 } });
+        const SolidPartState second = pressed({ { 1, 0.0 }, { 2, wall } });
+        const auto way = [](const SolidPartState& of, int plate, Vector along) {
+            return dot(of.state.plates[plate].displacement, along) / of.way;
+        };
+        for (const auto& [plate, along] : { std::pair { 1, up }, { 2, right } })
+            CHECK(way(both, plate, along)
+                == Approx(way(first, plate, along) + way(second, plate, along)).epsilon(1e-6));
+        // Betti: what one load works on the way of the other
+        CHECK(lid * s.plates[1].width * way(second, 1, up)
+            == Approx(wall * s.plates[2].width * way(first, 2, right)).epsilon(1e-5));
+        // steps lead there
+        SolidState moved = between_walls(p, rigid);
+        for (int k = 0; k < 6000; ++k) {
+            press(moved, 1, lid * std::min(1.0, k / 2000.0));
+            press(moved, 2, wall * std::min(1.0, k / 2000.0));
+            step(moved, { dt, damping, 1, true });
+        }
+        CHECK(plate_way(moved, 1, up) == Approx(way(both, 1, up)).epsilon(0.02));
+        // driven by that way, it bears the load; another plate under a load gives way to none
+        const SolidPartState driven = elastic_part_state(s, parts, dt);
+        CHECK(driven.load / driven.way
+            == Approx(lid * s.plates[1].width / -way(first, 1, up)).epsilon(1e-5));
+        CHECK(std::fabs(driven.state.plates[2].force.x) < 1e-6 * driven.load);
+        CHECK_THROWS_WITH(pressed({ { 0, lid } }), Catch::Contains("be free to move"));
+        CHECK_THROWS_WITH(pressed({ { 1, 0.0 } }), Catch::Contains("under pressures = 0 m"));
+        CHECK_THROWS_WITH(
+            pressed_part_state(s, parts, { { 1, lid } }), Catch::Contains("not be driven"));
+    }
+}
+
+TEST_CASE("The load of plates grows as their contacts tell", "[solids]")
+{
+    const Packing p = packing(60, 5);
+    const Vector top = p.solid.high;
+    for (const bool rigid : { false, true }) {
+        SolidState s = made(p, rigid);
+        for (const double sign : { 1.0, -1.0 }) {
+            SolidPatch end = side(p, sign * up, 0.0, 0.0);
+            end.friction = 0.5;
+            add_patch_plate(s, end);
+        }
+        scale_masses(s, damping, dt);
+        const PartGeometry parts { { 1 }, { 0 }, -1.0 * up, top.x * top.y, top.z };
+        const SolidDrive drive = drive_of(parts);
+        const double velocity = 1e-8 * top.z;
+        start(s, drive, elastic_field(s, drive), 0.0, velocity, true, dt);
+        go(s, 400);
+        const double load = part_load(s, parts), rate = part_load_rate(s, parts, loading_field(s));
+        CHECK(load > 0.0);
+        go(s, 100);
+        CHECK(part_load(s, parts) - load == Approx(100.0 * dt * rate).epsilon(0.02));
+        // what holds tells the same where node sets would be driven
+        const PartGeometry held { {}, { 0 }, -1.0 * up, 1.0, 1.0 };
+        CHECK(part_load_rate(s, held, loading_field(s)) == Approx(rate).epsilon(0.02));
+    }
+}

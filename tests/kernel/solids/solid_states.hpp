@@ -42,6 +42,15 @@ inline Packing box(int grains, std::uint64_t seed)
             { 0.1 * solid_samples::side, false }) };
 }
 
+/// A random disc, of six grains across and three of depth.
+inline Packing disc()
+{
+    const double side = solid_samples::side;
+    const Solid solid = Solid::disc(6.0 * side, 3.0 * side, side);
+    return { solid,
+        polyhedra(flexpm_test::packed_spheres(solid, 120, 3), solid, { 0.1 * side, false }) };
+}
+
 inline SolidInput granite(FacePointRule rule = FacePointRule::corners_and_inner, bool rigid = false)
 {
     return { { specimens::granite() }, { specimens::granite_contact() }, {}, rule, rigid };

@@ -258,6 +258,12 @@ BEGUN = (
     [],
     [("platen", 0, False), ("platen", 2, False)],
     [("platen", 0, False), ("platen", 2, False), ("drive", (0.0, -1.0), [1], [0])],
+    [
+        *(("platen", side, False) for side in (0, 2)),
+        ("press", [1], 1e5),
+        ("drive", (0.0, -1.0), [1], [0]),
+        ("start", 1.0),
+    ],
     [("roller", 0.006, 0.0, False), ("platen", 2, True), ("press", [1], 1e5)],
     [*(("hold", 0.006, z, 0.004, "xy") for z in (0.0, 0.016)), ("turn", None, [0], [1])],
 )

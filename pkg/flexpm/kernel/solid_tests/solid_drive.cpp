@@ -84,7 +84,7 @@ void start(SolidState& s, const SolidDrive& drive, const SolidField& field, doub
     for (std::size_t i = 0; i < s.plates.size(); ++i) {
         Plate& plate = s.plates[i];
         plate.displacement = {};
-        if (plate.loaded) plate.displacement = part * field.plates[i] * plate.normal;
+        if (plate.loaded) plate.displacement = part * field.plate_way(i) * plate.normal;
     }
     const Vector way = part * drive.length * drive.direction;
     for (int plate : drive.plates)

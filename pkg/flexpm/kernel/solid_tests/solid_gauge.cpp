@@ -2,7 +2,9 @@
 #include <flexpm/kernel/solid_tests/solid_gauge.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -90,6 +92,21 @@ double plate_rate(const SolidState& s, int plate, Vector direction)
 {
     const Plate& read = plate_at(s, plate);
     return dot(read.loaded ? s.loading.of_plate(plate).velocity : read.velocity, direction);
+}
+
+double contact_angle(const SolidState& s, int plate)
+{
+    const Plate& read = plate_at(s, plate);
+    if (read.jaw_radius == 0.0) return 0.0;
+    double low = read.position.y, high = low;
+    for (int t : read.facets) {
+        for (int n : s.surface.nodes[t]) {
+            const double y = space_vector(s.grains.reference, n).y;
+            low = std::min(low, y);
+            high = std::max(high, y);
+        }
+    }
+    return pressed_area(read) / (read.disc_radius * (high - low));
 }
 
 double mean_way_in_space(

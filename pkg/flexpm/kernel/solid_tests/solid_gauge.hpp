@@ -29,6 +29,11 @@ double plate_way(const SolidState& s, int plate, Vector direction);
 /// What this grows by in a unit of time with the motion that the loading gives [m/s].
 double plate_rate(const SolidState& s, int plate, Vector direction);
 
+/// Angle over which a disc lies against a jaw, in the mean over its depth: that of the area in
+/// contact [rad]; 0 of other plates.
+/// @throws std::invalid_argument  if there is no such plate
+double contact_angle(const SolidState& s, int plate);
+
 /// A section through a specimen: the nodes in a band, and where they lie.
 struct SolidSection {
     std::vector<int> nodes;

@@ -3,8 +3,10 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solid_tests/solid_drive.hpp>
+#include <flexpm/kernel/solid_tests/solid_jaws.hpp>
 #include <flexpm/kernel/solid_tests/solid_sets.hpp>
 #include <flexpm/kernel/solid_tests/solid_softening.hpp>
+#include <flexpm/kernel/solid_tests/surface_pieces.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_energies.hpp>
 #include <flexpm/kernel/solids/solid_plan.hpp>
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace flexpm {
@@ -21,72 +24,23 @@ namespace {
 
 /// Least cosine between a plate's normal and that of a triangle, inwards, that it may touch.
 constexpr double facing = 0.5;
-/// Share of a triangle that is none, and gap over the size of the box that is none: round-off [-].
-constexpr double no_share = 1e-12, no_gap = 1e-9;
+/// Gap over the size of the box that is none: round-off [-].
+constexpr double no_gap = 1e-9;
 /// Strain at which all is linear, but no round-off, and such a part of the way to the first
 /// softening, where the length of a test is none of the specimen's [-].
 constexpr double small_strain = 1e-7, small_part = 0.1;
 /// Strength of a test over the stress at which its first point softens, as of the plane [-].
 constexpr double strength_over_softening = 2.0;
 
-/// Place in a triangle: weights of its corners.
-using Weights = std::array<double, 3>;
-
-double along(const Vector& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-Vector at(const std::array<Vector, 3>& corners, const Weights& w)
+/// What lies in a box.
+std::vector<HalfSpace> box_of(const SolidPatch& patch)
 {
-    return w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
-}
-
-/// Part of a polygon in which a value of its corners is not above 0.
-template <class Value> std::vector<Weights> within(const std::vector<Weights>& polygon, Value value)
-{
-    std::vector<Weights> kept;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Weights &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        const double of_a = value(a), of_b = value(b);
-        if (of_a <= 0.0) kept.push_back(a);
-        if ((of_a < 0.0 && of_b > 0.0) || (of_a > 0.0 && of_b < 0.0)) {
-            const double part = of_a / (of_a - of_b);
-            Weights crossing;
-            for (int k = 0; k < 3; ++k)
-                crossing[k] = a[k] + part * (b[k] - a[k]);
-            kept.push_back(crossing);
-        }
+    std::vector<HalfSpace> box;
+    for (const Vector along : { Vector { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }) {
+        box.push_back({ -1.0 * along, -dot(along, patch.low) });
+        box.push_back({ along, dot(along, patch.high) });
     }
-    return kept;
-}
-
-/// What of a triangle lies in a box: its share of the area, and its middle.
-struct Piece {
-    double share = 0.0;
-    Weights middle {};
-};
-
-Piece piece_in(const std::array<Vector, 3>& corners, const SolidPatch& box)
-{
-    std::vector<Weights> polygon { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
-    for (int axis = 0; axis < 3; ++axis) {
-        const double low = along(box.low, axis), high = along(box.high, axis);
-        polygon =
-            within(polygon, [&](const Weights& w) { return low - along(at(corners, w), axis); });
-        polygon =
-            within(polygon, [&](const Weights& w) { return along(at(corners, w), axis) - high; });
-    }
-    Piece piece;
-    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-        const Weights &p = polygon[0], &q = polygon[i], &r = polygon[i + 1];
-        // a triangle of weights has this share of the whole one
-        const double share = (q[1] - p[1]) * (r[2] - p[2]) - (q[2] - p[2]) * (r[1] - p[1]);
-        piece.share += share;
-        for (int k = 0; k < 3; ++k)
-            piece.middle[k] += share / 3.0 * (p[k] + q[k] + r[k]);
-    }
-    if (piece.share > no_share)
-        for (double& weight : piece.middle)
-            weight /= piece.share;
-    return piece;
+    return box;
 }
 
 void check(const SolidState& s, const PartGeometry& parts)
@@ -130,6 +84,33 @@ double moment_of(const SolidState& s, const PartGeometry& parts)
     return sum;
 }
 
+/// Growth of the forces of plates along a direction as grains move [N/s].
+double push_rate(const SolidState& s, const std::vector<int>& plates, Vector direction,
+    const Array<double>& velocity)
+{
+    double sum = 0.0;
+    for (int number : plates) {
+        const Plate& plate = s.plates[number];
+        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
+            if (!(plate.bonded || plate.opening[i] < 0.0)) continue;
+            const auto& nodes = s.surface.nodes[plate.facets[i]];
+            Vector way = -1.0 * plate.velocity;
+            for (int k = 0; k < 3; ++k)
+                way = way + corner_share(plate, i, k) * space_vector(velocity, nodes[k]);
+            const Vector normal = normal_at(plate, i), across = dot(normal, way) * normal;
+            sum -= point_stiffness(plate, i) * dot(across, direction)
+                + sliding_stiffness(plate, i) * dot(way - across, direction);
+        }
+    }
+    return sum;
+}
+
+/// Mean over the grains.
+double mean_radius(const SolidState& s)
+{
+    return std::accumulate(s.grains.radius.begin(), s.grains.radius.end(), 0.0) / s.grains.count;
+}
+
 /// Way of what is driven first, or its angle.
 double way_of(const SolidState& s, const PartGeometry& parts)
 {
@@ -148,6 +129,20 @@ EndForces ends_of(const SolidState& s, const PartGeometry& parts)
     return { push(s, parts.holding, parts.holding_sets, parts.direction), top };
 }
 
+/// Where the elastic solution takes a specimen, for a way so small that all is linear.
+SolidPartState moved_state(const SolidState& s, const PartGeometry& parts, double dt)
+{
+    check(s, parts);
+    const SolidField field = elastic_field(s, drive_of(parts));
+    SolidPartState found { s };
+    found.softening = elastic_strain(s, field, 1.0);  // a way: the field is that of 1 m
+    found.way = std::min(small_strain * parts.length, small_part * found.softening);
+    start(found.state, drive_of(parts), field, found.way, 1.0, true, dt);
+    sum_node_sets(found.state, 0.0);
+    found.load = part_load(found.state, parts);
+    return found;
+}
+
 Plate plate_before(const SolidState& s, const SolidPatch& patch)
 {
     check_not_negative("friction of a plate", patch.friction, "");
@@ -157,24 +152,20 @@ Plate plate_before(const SolidState& s, const SolidPatch& patch)
         refuse("normal of a plate", norm(patch.normal), "", "must be a unit vector");
     Plate p = plain_plate(s, SolidSide::bottom);
     p.side = -1;
+    lay_strip(p, patch.strip);
     p.normal = patch.normal;
     p.bonded = patch.bonded;
     double nearest = std::numeric_limits<double>::infinity();
+    const std::vector<HalfSpace> box = box_of(patch);
     for (int t = 0; t < static_cast<int>(s.surface.grain.size()); ++t) {
         const Vector outwards = area_vector(s, t);
         if (!(-dot(p.normal, outwards) > facing * norm(outwards))) continue;
-        std::array<Vector, 3> corners;
-        for (int k = 0; k < 3; ++k)
-            corners[k] = space_vector(s.grains.reference, s.surface.nodes[t][k]);
-        const Piece piece = piece_in(corners, patch);
-        if (!(piece.share > no_share)) continue;
-        p.facets.push_back(t);
-        p.shares.insert(p.shares.end(), piece.middle.begin(), piece.middle.end());
-        p.area.push_back(piece.share * norm(outwards));
+        const Piece piece = piece_of(s, t, box);
+        if (piece.share == 0.0) continue;
+        add_touch(s, p, t, piece);
         p.width += p.area.back();
-        const Vector place = at(corners, piece.middle);
-        p.position = p.position + p.area.back() * place;
-        p.gap.push_back(dot(p.normal, place));
+        p.position = p.position + p.area.back() * piece.place;
+        p.gap.push_back(dot(p.normal, piece.place));
         nearest = std::min(nearest, p.gap.back());
     }
     if (p.facets.empty()) {
@@ -195,6 +186,7 @@ int add_patch_plate(SolidState& s, const SolidPatch& patch)
 {
     const Plate plate = plate_before(s, patch);
     require_apart(s, plate);
+    require_bare(s, plate);
     return add_plate(s, plate);
 }
 
@@ -226,23 +218,57 @@ SolidDrive drive_of(const PartGeometry& parts)
 
 SolidPartState elastic_part_state(const SolidState& s, const PartGeometry& parts, double dt)
 {
-    check(s, parts);
-    const SolidField field = elastic_field(s, drive_of(parts));
+    SolidState held = s;
+    hold_touching(held);
+    return moved_state(held, parts, dt);
+}
+
+SolidPartState pressed_part_state(
+    const SolidState& s, const PartGeometry& parts, const std::vector<PlatePressure>& pressures)
+{
+    SolidDrive drive = drive_of(parts);
+    drive.length = 0.0;  // what loads stays
+    for (const auto& [plate, pressure] : pressures) {
+        check_not_negative("pressure on a plate", pressure, "Pa");
+        drive.loads.push_back({ plate, pressure * s.plates.at(plate).width });
+    }
+    const SolidField field = elastic_field(s, drive);
     SolidPartState found { s };
-    found.softening = elastic_strain(s, field, 1.0);  // a way: the field is that of 1 m
-    found.way = std::min(small_strain * parts.length, small_part * found.softening);
-    start(found.state, drive_of(parts), field, found.way, 1.0, true, dt);
+    hold_touching(found.state);
+    double farthest = 0.0;
+    for (const Vector& way : field.ways)
+        farthest = std::max(farthest, norm(way));
+    check_positive("way of the grains under pressures", farthest, "m");
+    found.softening = elastic_strain(s, field, 1.0);
+    found.way = std::min(small_strain * mean_radius(s) / farthest, small_part * found.softening);
+    for (std::size_t i = 0; i < found.state.plates.size(); ++i) {
+        Plate& plate = found.state.plates[i];
+        plate.displacement = found.way * field.plate_way(i) * plate.normal;
+    }
+    begin_from(found.state, field, found.way, 0.0);
     sum_node_sets(found.state, 0.0);
-    const EndForces ends = ends_of(found.state, parts);
-    found.load = 0.5 * (ends.top - ends.bottom);
+    found.load = part_load(found.state, parts);
     return found;
+}
+
+double part_load(const SolidState& s, const PartGeometry& parts)
+{
+    if (parts.driven.empty() && parts.driven_sets.empty()) return 0.0;
+    const EndForces ends = ends_of(s, parts);
+    return 0.5 * (ends.top - ends.bottom);
+}
+
+double part_load_rate(const SolidState& s, const PartGeometry& parts, const Array<double>& velocity)
+{
+    if (!parts.driven.empty()) return push_rate(s, parts.driven, parts.direction, velocity);
+    return -push_rate(s, parts.holding, parts.direction, velocity);
 }
 
 TestScales solid_part_scales(
     const SolidState& s, const PartGeometry& parts, double strength, double dt)
 {
     check_not_negative("strength", strength, "Pa");
-    const SolidPartState moved = elastic_part_state(s, parts, dt);
+    const SolidPartState moved = moved_state(s, parts, dt);
     const double stiffness = moved.load / moved.way, softening = moved.softening;
     check_positive("stiffness that the driven plates feel", stiffness, "N/m");
     const double mass = 2.0 * kinetic_of_velocities(moved.state);

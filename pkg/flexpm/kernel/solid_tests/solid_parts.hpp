@@ -15,6 +15,7 @@ struct SolidPatch {
     Vector low, high;       ///< corners of the box [m]
     double friction = 0.0;  ///< coefficient [-]; 0: smooth
     bool bonded = false;
+    double strip = 0.0;  ///< of a soft layer between, in series [Pa/m]; 0: none
 };
 
 /// Lay a plate on a patch. It does not turn. A surface triangle that leaves the box is touched
@@ -36,7 +37,7 @@ SolidFrame solid_part_frame(const SolidState& s, const PartGeometry& parts);
 /// turns is its axis.
 SolidDrive drive_of(const PartGeometry& parts);
 
-/// Where its elastic solution takes a specimen.
+/// Where its elastic solution takes a specimen, whose plates hold what touches them.
 struct SolidPartState {
     SolidState state;        ///< with the forces of all parts; what loads goes 1 m or rad in 1 s
     double way = 0.0;        ///< of what is driven, so small that all is linear [m, or rad]
@@ -47,6 +48,27 @@ struct SolidPartState {
 /// @throws std::invalid_argument  as solid_part_frame()
 /// @throws std::runtime_error     if the forces do not come to balance
 SolidPartState elastic_part_state(const SolidState& s, const PartGeometry& parts, double dt);
+
+/// Pressure on a plate that is free to move along its normal.
+struct PlatePressure {
+    int plate;
+    double pressure;  ///< [Pa]
+};
+
+/// The same under pressures, where what is driven stays. `way` is then the part of the pressures
+/// that acts, so small that all is linear [-]. Parts need not be driven.
+/// @throws std::invalid_argument  for a plate that no load moves, or if nothing gives way
+/// @throws std::runtime_error     if the forces do not come to balance
+SolidPartState pressed_part_state(
+    const SolidState& s, const PartGeometry& parts, const std::vector<PlatePressure>& pressures);
+
+/// Load of the driven parts along the loading, as a record has it; 0 without [N, or N m].
+double part_load(const SolidState& s, const PartGeometry& parts);
+
+/// Growth of the load of plates as the grains move at a velocity; of those that hold where node
+/// sets are driven [N/s].
+double part_load_rate(
+    const SolidState& s, const PartGeometry& parts, const Array<double>& velocity);
 
 /// Its scales, from the elastic solution, as part_scales() has them; `width` is the root of the
 /// area.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -62,9 +63,10 @@ void set_axes(std::vector<double>& values, int index, Vector v)
     values[3 * index + 2] = v.z;
 }
 
-Vector along_face(const Plate& plate, Vector way)
+Vector along_face(const Plate& plate, int index, Vector way)
 {
-    return way - dot(plate.normal, way) * plate.normal;
+    const Vector normal = normal_at(plate, index);
+    return way - dot(normal, way) * normal;
 }
 
 /// Force along the face on a grain that is at a way from its reference: a spring, and a slider that
@@ -73,8 +75,10 @@ Vector rub(Plate& plate, int index, Vector way)
 {
     const double stiffness = sliding_stiffness(plate, index);
     const Vector slid = axes_of(plate.slid, index), old = axes_of(plate.shear_force, index);
-    const Vector stretch = along_face(plate, way) - slid;
-    const double most = plate.friction * std::max(push(plate, index), 0.0) / stiffness;
+    const Vector stretch = along_face(plate, index, way) - slid;
+    const double most = plate.bonded
+        ? std::numeric_limits<double>::infinity()
+        : plate.friction * std::max(push(plate, index), 0.0) / stiffness;
     const double size = norm(stretch);
     const Vector stuck = size > most ? (most / size) * stretch : stretch;
     const Vector slip = stretch - stuck, force = -stiffness * stuck;
@@ -123,27 +127,6 @@ void add_contact(const SolidState& s, Plate& p, int triangle)
 constexpr double facing = 0.5;
 /// Gap over the way from end to end that is none: round-off [-].
 constexpr double no_gap = 1e-9;
-
-/// Bend a plate that touches a disc to a jaw: gaps and normals are those of two circles, the inner
-/// one touching each facet (deviation D95).
-void bend(const SolidState& s, Plate& p, double radius)
-{
-    p.disc_radius = std::fabs(p.position.z);
-    p.jaw_radius = radius;
-    if (!(radius > p.disc_radius))
-        refuse("radius of a jaw", radius, "m",
-            "must be > " + std::to_string(p.disc_radius) + " m, the disc's");
-    const Vector centre = (radius - p.disc_radius) * p.normal;
-    p.normals.assign(3 * p.facets.size(), 0.0);
-    for (int i = 0; i < static_cast<int>(p.facets.size()); ++i) {
-        const Vector outwards = area_vector(s, p.facets[i]);
-        const Vector from = (p.disc_radius / norm(outwards)) * outwards - centre;
-        const double gap = radius - norm(from);
-        p.gap[i] = gap < no_gap * radius ? 0.0 : gap;
-        set_axes(p.normals, i, (-1.0 / norm(from)) * from);
-    }
-    p.opening = p.gap;
-}
 
 /// A plate that touches the mantle where this reaches farthest against its normal.
 Plate touching_plate(const SolidState& s, SolidSide side)
@@ -206,12 +189,37 @@ int keep_from_rolling(SolidState& s, const Plate& p)
 
 }  // namespace
 
+void bend(const SolidState& s, Plate& p, double disc_radius, double jaw_radius)
+{
+    p.disc_radius = disc_radius;
+    p.jaw_radius = jaw_radius;
+    const Vector centre = (jaw_radius - disc_radius) * p.normal;
+    p.gap.assign(p.facets.size(), 0.0);
+    p.normals.assign(3 * p.facets.size(), 0.0);
+    for (int i = 0; i < static_cast<int>(p.facets.size()); ++i) {
+        const Vector outwards = area_vector(s, p.facets[i]);
+        const Vector from = (disc_radius / norm(outwards)) * outwards - centre;
+        const double gap = jaw_radius - norm(from);
+        p.gap[i] = gap < no_gap * jaw_radius ? 0.0 : gap;
+        set_axes(p.normals, i, (-1.0 / norm(from)) * from);
+    }
+    p.opening = p.gap;
+}
+
 void roughen(Plate& plate, double friction)
 {
     plate.friction = friction;
     plate.rubbed.assign(plate.facets.size(), 0.0);
     plate.shear_force.assign(3 * plate.facets.size(), 0.0);
     plate.slid.assign(3 * plate.facets.size(), 0.0);
+}
+
+void lay_strip(Plate& plate, double strip)
+{
+    check_not_negative("stiffness of a strip", strip, "Pa/m");
+    if (strip == 0.0) return;
+    plate.strip = strip;
+    plate.stiffness = 1.0 / (1.0 / plate.stiffness + 1.0 / strip);
 }
 
 int add_plate(SolidState& s, const Plate& plate)
@@ -221,13 +229,33 @@ int add_plate(SolidState& s, const Plate& plate)
     return static_cast<int>(s.plates.size()) - 1;
 }
 
+void hold_touching(SolidState& s)
+{
+    for (Plate& plate : s.plates) {
+        const Plate all = plate;
+        const auto keep = [&](const auto& from, auto& to, std::size_t width) {
+            to.clear();
+            for (std::size_t i = 0; width * i < from.size(); ++i)
+                if (all.bonded || all.opening[i] <= 0.0)
+                    to.insert(to.end(), from.begin() + width * i, from.begin() + width * (i + 1));
+        };
+        keep(all.facets, plate.facets, 1);
+        for (auto member : { &Plate::gap, &Plate::area, &Plate::opening, &Plate::rubbed })
+            keep(all.*member, plate.*member, 1);
+        for (auto member : { &Plate::normals, &Plate::shear_force, &Plate::slid, &Plate::shares })
+            keep(all.*member, plate.*member, 3);
+        plate.bonded = true;
+    }
+    prepare_step(s);
+}
+
 int find_alike(const SolidState& s, const Plate& plate)
 {
     const auto same = [&](const Plate& there) {
         return there.side == plate.side && norm(there.normal - plate.normal) == 0.0
             && norm(there.position - plate.position) == 0.0 && there.facets == plate.facets
             && there.area == plate.area && there.friction == plate.friction
-            && there.bonded == plate.bonded;
+            && there.bonded == plate.bonded && there.strip == plate.strip;
     };
     const auto found = std::find_if(s.plates.begin(), s.plates.end(), same);
     return found == s.plates.end() ? -1 : static_cast<int>(found - s.plates.begin());
@@ -273,9 +301,14 @@ void add_disc_plates(SolidState& s, double jaw_radius)
     std::vector<Plate> plates;
     for (const SolidSide side : { SolidSide::bottom, SolidSide::top })
         plates.push_back(touching_plate(s, side));
-    if (jaw_radius > 0.0)
-        for (Plate& plate : plates)
-            bend(s, plate, jaw_radius);
+    for (Plate& plate : plates) {
+        if (jaw_radius == 0.0) continue;
+        const double disc_radius = std::fabs(plate.position.z);
+        if (!(jaw_radius > disc_radius))
+            refuse("radius of a jaw", jaw_radius, "m",
+                "must be > " + std::to_string(disc_radius) + " m, the disc's");
+        bend(s, plate, disc_radius, jaw_radius);
+    }
     s.plates = plates;
     keep_from_rolling(s, s.plates.back());
     hold(s, keep_from_rolling(s, s.plates.front()), 1);
@@ -293,7 +326,7 @@ void roughen_plates(SolidState& s, double friction)
         roughen(plate, friction);
         for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
             const Vector way = middle(s.grains.displacement, s.surface.nodes[plate.facets[i]]);
-            set_axes(plate.slid, i, along_face(plate, way));
+            set_axes(plate.slid, i, along_face(plate, i, way));
         }
     }
 }

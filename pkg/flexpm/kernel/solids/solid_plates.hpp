@@ -25,6 +25,11 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded);
 ///         larger than the disc's
 void add_disc_plates(SolidState& s, double jaw_radius = 0.0);
 
+/// Make a plate that has all of its contacts, before the mantle of a disc about the y axis, a jaw:
+/// gaps and normals are those of two circles, the inner one touching each facet (deviation D95).
+/// @param disc_radius, jaw_radius  of these circles [m]
+void bend(const SolidState& s, Plate& plate, double disc_radius, double jaw_radius);
+
 /// Let grains stick to the plates from their present places on, as far as friction bears it.
 /// @param friction  coefficient [-]
 /// @throws std::invalid_argument  if it is below 0, or there are no two plates that press
@@ -37,8 +42,16 @@ constexpr double no_sliding = 1e6;
 /// @param friction  coefficient [-]
 void roughen(Plate& plate, double friction);
 
+/// Lay a soft layer on a plate's face, in series with its contacts along its normals.
+/// @param strip  its stiffness per area [Pa/m]; 0: there is none
+void lay_strip(Plate& plate, double strip);
+
 /// Lay a plate that has all of its contacts; returns its number.
 int add_plate(SolidState& s, const Plate& plate);
+
+/// Let plates hold what touches them now, pulled or pressed, and along the face if they have
+/// friction: as linear solutions have it. What does not touch them never does.
+void hold_touching(SolidState& s);
 
 /// Number of the plate that was laid as this one; -1 if there is none.
 int find_alike(const SolidState& s, const Plate& plate);

@@ -108,6 +108,18 @@ bool is_driven(const LinearSolid::Press& p, const SolidDrive& drive)
     return std::find(drive.plates.begin(), drive.plates.end(), p.plate) != drive.plates.end();
 }
 
+/// @throws std::invalid_argument  for a load on a plate that does not float, or touches nothing
+void check_loads(const LinearSolid& solid, const SolidDrive& drive)
+{
+    for (const PlateLoad& load : drive.loads) {
+        const bool bears = std::any_of(solid.presses.begin(), solid.presses.end(),
+            [&](const LinearSolid::Press& p) { return p.plate == load.plate && p.floats; });
+        if (!bears)
+            refuse("plate under a load", load.plate, "",
+                "must touch grains, be free to move, and not be driven");
+    }
+}
+
 /// Forces of an intact specimen that plates which do not touch it have no part in. No load moves
 /// those that are driven.
 LinearSolid touched_solid(const SolidState& s, const SolidDrive& drive, int threads)
@@ -119,21 +131,45 @@ LinearSolid touched_solid(const SolidState& s, const SolidDrive& drive, int thre
     presses.erase(std::remove_if(presses.begin(), presses.end(),
                       [](const LinearSolid::Press& p) { return !p.touches; }),
         presses.end());
+    check_loads(solid, drive);
     return solid;
 }
 
-/// Forces on nodes when driven plates have gone their way.
+/// Sum over the contacts of a plate [N/m].
+double stiffness_of(const LinearSolid& solid, int plate)
+{
+    double sum = 0.0;
+    for (const LinearSolid::Press& p : solid.presses)
+        if (p.plate == plate) sum += p.stiffness;
+    return sum;
+}
+
+/// Forces on nodes when driven plates have gone their way, and of loads.
 std::vector<double> push_of(const LinearSolid& solid, const SolidDrive& drive)
 {
     const Vector way = drive.length * drive.direction;
     std::vector<double> on_nodes(3 * solid.places.size(), 0.0);
-    for (const LinearSolid::Press& p : solid.presses) {
-        if (!is_driven(p, drive)) continue;
+    const auto push = [&](const LinearSolid::Press& p, double force) {
         for (int k = 0; k < 3; ++k)
-            add_triple(on_nodes.data(), p.nodes[k],
-                (3.0 * p.shares[k] * (p.stiffness * dot(p.normal, way) / 3.0)) * p.normal);
+            add_triple(on_nodes.data(), p.nodes[k], (3.0 * p.shares[k] * (force / 3.0)) * p.normal);
+    };
+    for (const LinearSolid::Press& p : solid.presses)
+        if (is_driven(p, drive)) push(p, p.stiffness * dot(p.normal, way));
+    for (const PlateLoad& load : drive.loads) {
+        const double alone = load.force / stiffness_of(solid, load.plate);
+        for (const LinearSolid::Press& p : solid.presses)
+            if (p.plate == load.plate) push(p, p.stiffness * alone);
     }
     return on_nodes;
+}
+
+/// Ways of plates that a load moves, by where the nodes are.
+std::vector<double> plate_ways(const LinearSolid& solid, const SolidDrive& drive, const double* u)
+{
+    std::vector<double> ways = solid.floating_ways(u);
+    for (const PlateLoad& load : drive.loads)
+        ways[load.plate] += load.force / stiffness_of(solid, load.plate);
+    return ways;
 }
 
 /// Ways of what is held: of driven sets that of the loading. Calls give(grain, node, axis, way).
@@ -190,7 +226,7 @@ SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, const So
     for (std::size_t n = 0; n < solid.places.size(); ++n)
         field.ways.push_back(triple_at(given.data(), static_cast<int>(n))
             + triple_at(found.u.data(), static_cast<int>(n)));
-    field.plates = solid.floating_ways(found.u.data());
+    field.plates = plate_ways(solid, drive, found.u.data());
     return field;
 }
 
@@ -219,7 +255,7 @@ SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, const S
         field.ways.push_back(triple_at(found.u.data(), 2 * g));
         field.turns.push_back((1.0 / rigid.radii[g]) * triple_at(found.u.data(), 2 * g + 1));
     }
-    field.plates = solid.floating_ways(rigid.on_nodes(found.u.data()).data());
+    field.plates = plate_ways(solid, drive, rigid.on_nodes(found.u.data()).data());
     return field;
 }
 

@@ -18,6 +18,12 @@ namespace flexpm {
 /// @throws std::runtime_error  if the forces do not come to balance
 SolidField elastic_field(const SolidState& s, int threads = 1);
 
+/// Load on a plate that is free to move along its normal.
+struct PlateLoad {
+    int plate;
+    double force;  ///< into the specimen [N]
+};
+
 /// What loads a specimen: plates and node sets that go a way, node sets that turn, or the nodes of
 /// its top along z.
 struct SolidDrive {
@@ -27,6 +33,7 @@ struct SolidDrive {
     std::vector<int> sets = {};            ///< their numbers
     std::vector<int> back_sets = {};       ///< those that turn the other way
     bool turns = false;                    ///< sets turn about their pivots
+    std::vector<PlateLoad> loads = {};     ///< of a static solution alone
 
     bool moves_top() const { return plates.empty() && sets.empty(); }
 
@@ -41,7 +48,7 @@ struct SolidDrive {
 };
 
 /// The same where plates and node sets hold and load a specimen by themselves, at that way of the
-/// driven ones. Those that a load moves follow.
+/// driven ones, under loads. Plates that a load moves follow.
 SolidField elastic_field(const SolidState& s, const SolidDrive& drive, int threads = 1);
 
 /// Forces of an intact specimen; nodes grain after grain, the centre last.

@@ -6,6 +6,7 @@
 #include <flexpm/kernel/solids/solid_state.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 
+#include <cstddef>
 #include <vector>
 
 namespace flexpm {
@@ -31,6 +32,11 @@ struct SolidField {
     /// Ways of the plates that a load moves, along their normals, by number; 0 of others and beyond
     /// the last of them [m].
     std::vector<double> plates = {};
+
+    double plate_way(std::size_t plate) const
+    {
+        return plate < plates.size() ? plates[plate] : 0.0;
+    }
 };
 
 /// Begin from a linear solution: displacements are `extent` times `field`, velocities `rate` times

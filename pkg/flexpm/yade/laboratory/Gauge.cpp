@@ -41,12 +41,16 @@ Real Gauge::wayInSpace(const flexpm::Array<double>& moved) const
 
 Real Gauge::rate(const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const
 {
+	if (isState()) return 0;
 	return perLength(plate >= 0 ? flexpm::plate_rate(solid, plate, { direction[0], direction[1], direction[2] }) : wayInSpace(velocity));
 }
 
-void Gauge::setZero(const flexpm::SolidState& solid) { zero = moved(solid); }
+void Gauge::setZero(const flexpm::SolidState& solid)
+{
+	if (!isState()) zero = moved(solid);
+}
 
-Real Gauge::reading(const flexpm::SolidState& solid) const { return perLength(moved(solid) - zero); }
+Real Gauge::reading(const flexpm::SolidState& solid) const { return isState() ? flexpm::contact_angle(solid, plate) : perLength(moved(solid) - zero); }
 
 bool Gauge::isState() const { return reads == "machine_energy" || reads == "contact_angle" || reads == "angle"; }
 

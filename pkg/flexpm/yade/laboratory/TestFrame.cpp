@@ -10,6 +10,7 @@
 #include <flexpm/kernel/laboratory/part_measures.hpp>
 #include <flexpm/kernel/solid_tests/solid_beam.hpp>
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/statics/elastic_state.hpp>
 
 namespace yade {
@@ -174,38 +175,66 @@ flexpm::TestScales SolidPartFrame::scalesOf(GrainSolver& solver, Real dt) const 
 
 std::optional<TestFrame::Measure> SolidPartFrame::measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const
 {
+	if (column == "load") return Measure { flexpm::part_load(solid, parts()), flexpm::part_load_rate(solid, parts(), velocity) };
 	if (column != "cmod") return {};
 	const flexpm::Mouth mouth { middle, reach };
 	return Measure { flexpm::mouth_opening(solid, mouth), flexpm::mouth_opening(solid, mouth, velocity) };
 }
 
-py::dict SolidPartFrame::elasticState() const
+namespace {
+
+	/// The scene's solid, which no step has moved, with plates that are free to move.
+	flexpm::SolidState unloaded(const vector<int>& floating)
+	{
+		flexpm::SolidState state = solidOf(*GrainSolver::ofScene(*Omega::instance().getScene()));
+		if (state.step > 0)
+			flexpm::refuse("steps of the scene", Real(state.step), "", "must be 0: the static solution of a solid is that of the unloaded one");
+		for (int plate : floating)
+			flexpm::free_plate(state, plate);
+		return state;
+	}
+
+	py::dict dictOf(const flexpm::SolidPartState& found)
+	{
+		const auto append = [](py::list& to, const auto&... vectors) {
+			py::list values;
+			for (const flexpm::Vector& v : { vectors... }) {
+				values.append(v.x);
+				values.append(v.y);
+				values.append(v.z);
+			}
+			to.append(values);
+		};
+		py::list plates, sets;
+		for (const flexpm::Plate& p : found.state.plates)
+			append(plates, p.force, p.displacement);
+		for (const flexpm::NodeSet& s : found.state.node_sets)
+			append(sets, s.force, s.displacement, s.moment, s.angle);
+		py::dict d;
+		d["snapshot"]  = SolidSolver::snapshotOf(found.state);
+		d["plates"]    = plates;
+		d["node_sets"] = sets;
+		d["way"]       = found.way;
+		d["load"]      = found.load;
+		return d;
+	}
+
+} // namespace
+
+py::dict SolidPartFrame::elasticState(vector<int> floating) const
 {
-	const auto  solver = GrainSolver::ofScene(*Omega::instance().getScene());
-	const auto& state  = solidOf(*solver);
-	if (state.step > 0) flexpm::refuse("steps of the scene", Real(state.step), "", "must be 0: the static solution of a solid is that of the unloaded one");
-	const auto found  = flexpm::elastic_part_state(state, parts(), Omega::instance().getScene()->dt);
-	const auto append = [](py::list& to, const auto&... vectors) {
-		py::list values;
-		for (const flexpm::Vector& v : { vectors... }) {
-			values.append(v.x);
-			values.append(v.y);
-			values.append(v.z);
-		}
-		to.append(values);
-	};
-	py::list plates, sets;
-	for (const flexpm::Plate& p : found.state.plates)
-		append(plates, p.force, p.displacement);
-	for (const flexpm::NodeSet& s : found.state.node_sets)
-		append(sets, s.force, s.displacement, s.moment, s.angle);
-	py::dict d;
-	d["snapshot"]  = SolidSolver::snapshotOf(found.state);
-	d["plates"]    = plates;
-	d["node_sets"] = sets;
-	d["way"]       = found.way;
-	d["load"]      = found.load;
-	return d;
+	return dictOf(flexpm::elastic_part_state(unloaded(floating), parts(), Omega::instance().getScene()->dt));
+}
+
+py::dict SolidPartFrame::pressedState(vector<int> plates, vector<Real> pressures) const
+{
+	if (plates.size() != pressures.size())
+		flexpm::refuse("pressures", Real(pressures.size()), "", "must be one for each plate that is pressed, " + std::to_string(plates.size()));
+	const auto                         state = unloaded(plates);
+	std::vector<flexpm::PlatePressure> asked;
+	for (std::size_t i = 0; i < plates.size(); ++i)
+		asked.push_back({ plates[i], pressures[i] });
+	return dictOf(flexpm::pressed_part_state(state, parts(), asked));
 }
 
 vector<string> SolidPartFrame::columns() const

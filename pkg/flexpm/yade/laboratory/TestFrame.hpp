@@ -162,7 +162,8 @@ public:
 	std::optional<Measure>   measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const override;
 	vector<string>           columns() const override;
 	vector<Real>             values(GrainSolver& solver, Real stress, Real strain) const override;
-	boost::python::dict      elasticState() const;
+	boost::python::dict      elasticState(vector<int> floating) const;
+	boost::python::dict      pressedState(vector<int> plates, vector<Real> pressures) const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SolidPartFrame, PartFrame,
@@ -171,8 +172,10 @@ public:
 		((Real, middle, 0.,, "x of the middle of the bottom, where a notch opens [m]."))
 		((Real, reach, 0.,, "Distance from there to either side, of the lines whose parting is the column cmod [m]; 0: there is none."))
 		, /* ctor */
-		, .def("elasticState", &SolidPartFrame::elasticState,
-			"Where the linear solution takes the scene's solid, which no step has moved, for a way or angle of what is driven that is so small that all is linear. Returns the state as SolidSolver.snapshot() has it, forces and displacements of plates, those of node sets with moments and angles, way and load.")
+		, .def("elasticState", &SolidPartFrame::elasticState, (boost::python::arg("floating")),
+			"Where the linear solution takes the scene's solid, which no step has moved, for a way or angle of what is driven that is so small that all is linear. floating: plates that are free to move along their normals. Returns the state as SolidSolver.snapshot() has it, forces and displacements of plates, those of node sets with moments and angles, way and load.")
+		.def("pressedState", &SolidPartFrame::pressedState, (boost::python::arg("plates"), boost::python::arg("pressures")),
+			"The same under pressures on plates [Pa], where what is driven stays; the way is the part of them that acts [-].")
 	);
 	// clang-format on
 

@@ -6,6 +6,7 @@
 #include <flexpm/kernel/solid_tests/solid_beam.hpp>
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
 #include <flexpm/kernel/solid_tests/solid_gauge.hpp>
+#include <flexpm/kernel/solid_tests/solid_jaws.hpp>
 #include <flexpm/kernel/solid_tests/solid_loose.hpp>
 #include <flexpm/kernel/solid_tests/solid_parts.hpp>
 #include <flexpm/kernel/solid_tests/solid_sets.hpp>
@@ -113,14 +114,33 @@ namespace {
 
 } // namespace
 
-int SolidSolver::layPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded)
+int SolidSolver::layPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip)
 {
-	return flexpm::add_patch_plate(state, { fromYade(normal), fromYade(low), fromYade(high), friction, bonded });
+	return flexpm::add_patch_plate(state, { fromYade(normal), fromYade(low), fromYade(high), friction, bonded, strip });
 }
 
-int SolidSolver::findPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded)
+int SolidSolver::findPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip)
 {
-	return flexpm::find_patch_plate(state, { fromYade(normal), fromYade(low), fromYade(high), friction, bonded });
+	return flexpm::find_patch_plate(state, { fromYade(normal), fromYade(low), fromYade(high), friction, bonded, strip });
+}
+
+namespace {
+
+	flexpm::SolidJaw jawOf(const Vector3r& towards, Real ratio, Real angle, Real friction, Real strip)
+	{
+		return { fromYade(towards), ratio, angle, friction, strip };
+	}
+
+} // namespace
+
+int SolidSolver::layJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip)
+{
+	return flexpm::add_jaw_plate(state, jawOf(towards, ratio, angle, friction, strip));
+}
+
+int SolidSolver::findJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip)
+{
+	return flexpm::find_jaw_plate(state, jawOf(towards, ratio, angle, friction, strip));
 }
 
 void SolidSolver::freePlate(int plate) { flexpm::free_plate(state, plate); }
@@ -140,20 +160,24 @@ py::tuple SolidSolver::elasticConstants()
 py::list SolidSolver::plates()
 {
 	py::list all;
-	for (const flexpm::Plate& p : state.plates) {
-		py::dict d;
-		d["side"]         = p.side;
-		d["normal"]       = tupleOf(p.normal);
-		d["area"]         = p.width;
-		d["friction"]     = p.friction;
-		d["bonded"]       = p.bonded;
-		d["pressed"]      = p.loaded;
-		d["place"]        = tupleOf(p.position + p.displacement);
-		d["work"]         = p.boundary_work;
-		d["displacement"] = tupleOf(p.displacement);
-		d["velocity"]     = tupleOf(p.velocity);
-		d["force"]        = tupleOf(p.force);
-		d["pressed_area"] = flexpm::pressed_area(p);
+	for (std::size_t i = 0; i < state.plates.size(); ++i) {
+		const flexpm::Plate& p = state.plates[i];
+		py::dict             d;
+		d["side"]          = p.side;
+		d["normal"]        = tupleOf(p.normal);
+		d["area"]          = p.width;
+		d["friction"]      = p.friction;
+		d["bonded"]        = p.bonded;
+		d["pressed"]       = p.loaded;
+		d["place"]         = tupleOf(p.position + p.displacement);
+		d["work"]          = p.boundary_work;
+		d["displacement"]  = tupleOf(p.displacement);
+		d["velocity"]      = tupleOf(p.velocity);
+		d["force"]         = tupleOf(p.force);
+		d["pressed_area"]  = flexpm::pressed_area(p);
+		d["strip"]         = p.strip;
+		d["radius"]        = p.jaw_radius;
+		d["contact_angle"] = flexpm::contact_angle(state, static_cast<int>(i));
 		all.append(d);
 	}
 	return all;

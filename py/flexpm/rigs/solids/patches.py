@@ -9,9 +9,10 @@ import numpy as np
 
 from ...arrays import FloatArray
 from ...errors import InputError
-from ...require import POSITIVE, require_number
+from ...require import POSITIVE, quoted, require_number
 from ...specimens.space.specimen import SolidSpecimen
 from ..places import SPACE, Vector, require_vector
+from ..stages.pressures import sides_of
 
 BOTTOM, RIGHT, TOP, LEFT, FRONT, BACK = range(6)
 #: Into the specimen from each side of the box around it.
@@ -30,6 +31,8 @@ FLAT = {
     "solid-disc": (FRONT, BACK),
     "solid-half-disc": (BOTTOM, FRONT, BACK),
 }
+#: Side that is round: the mantle has the number of the right side.
+_MANTLE = RIGHT
 #: Axis across the section that maps draw.
 _DEPTH = 1
 #: Cosine from which on normals are along each other, and part of a patch that is an edge [-].
@@ -88,6 +91,23 @@ def side_patch(specimen: SolidSpecimen, side: int) -> Patch:
     edges = high - low
     edges[across] = 0.0
     return patch_around(specimen, place, edges, normal)
+
+
+def sides_under(specimen: SolidSpecimen, side: object, hole: object) -> list[int]:
+    """Sides of a solid that a call of ``fluid`` names, the mantle among them.
+
+    Raises:
+        InputError: for one that there is not, or a hole.
+    """
+    if hole is not None:
+        raise InputError(f"fluid: hole = {quoted(hole)}, must be left out for a solid; give a side")
+    sides, there = sides_of(side), sorted({*FLAT[specimen.kind], _MANTLE})
+    if strange := [one for one in sides if one not in there]:
+        raise InputError(
+            f"fluid: side = {strange[0]}, must be one of {', '.join(map(str, there))}, those of a "
+            f"{specimen.kind}"
+        )
+    return sides
 
 
 def patch_around(

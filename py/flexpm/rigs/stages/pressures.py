@@ -11,7 +11,7 @@ import yade
 from yade import wrapper
 
 from ...errors import InputError, SimulationError
-from ...require import NOT_NEGATIVE, Bounds, quoted, require_number, require_whole
+from ...require import ANY, NOT_NEGATIVE, Bounds, quoted, require_number, require_whole
 from ...runs.runner import Span
 from ...specimens.kernel_input import Circle
 from ..parts import Part, require_apart, require_part
@@ -199,9 +199,13 @@ class PartPressures(PartRest):
             number = require_whole("fluid: hole", hole, bounds)
             first = outside + sum(len(one) for one in holes[:number])
             return list(range(first, first + len(holes[number])))
-        given = list(side) if isinstance(side, Iterable) and not isinstance(side, str) else [side]
-        bounds = Bounds(at_least=0, at_most=outside + sum(len(one) for one in holes) - 1)
-        numbers = sorted({require_whole("fluid: side", one, bounds) for one in given})
-        if not numbers:
-            raise InputError("fluid: side = none, must be at least 1")
-        return numbers
+        return sides_of(side, Bounds(at_least=0, at_most=outside + sum(map(len, holes)) - 1))
+
+
+def sides_of(side: object, bounds: Bounds = ANY) -> list[int]:
+    """One or several numbers of sides that a call of ``fluid`` names, in order."""
+    given = list(side) if isinstance(side, Iterable) and not isinstance(side, str) else [side]
+    numbers = sorted({require_whole("fluid: side", one, bounds) for one in given})
+    if not numbers:
+        raise InputError("fluid: side = none, must be at least 1")
+    return numbers

@@ -3,17 +3,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
+import numpy as np
 from yade import wrapper
 
+from ...arrays import FloatArray
 from ...errors import InputError
+from ...files import Table
 from ...models.grains import SolidModel
 from ...results.solids.state import SolidSnapshot
 from ..parts import HeldNodes, Part, RigPart, require_part
 from .elastic_state import PartStatics, required_loading
 
+#: Forces and ways of parts, a row each; 0 before there is any.
+Sums: TypeAlias = "FloatArray | float"
 #: Arrays of a state that a linear solution changes.
 _LINEAR = (
     *("positions", "forces", "centres", "tetrahedron_stress", "corners"),
@@ -70,42 +76,69 @@ class SolidPartStatics(PartStatics):
         """Where the unloaded solid would come to rest, if all of it stayed elastic.
 
         Args:
-            pressures: Must be left out.
+            pressures: On parts [Pa]: they are free to move along their normals.
             way: How far the driven parts go along the loading [m], or turn [rad].
             load: Sum of what they push [N], or of their moments [N m], in place of a way.
 
         Raises:
-            InputError: as of the plane, for pressures, and once a step has been done.
+            InputError: as of the plane, and once a step has been done.
         """
-        if pressures:
-            raise InputError("elastic: pressures = given, must be left out for a solid")
         way, asked = required_loading(way, load)
         frame = self._frame
         assert isinstance(frame, wrapper.SolidPartFrame)
-        if not (frame.driven or frame.drivenSets):
+        driven = bool(frame.driven or frame.drivenSets)
+        moves = asked is not None or way != 0.0
+        if moves and not driven:
             raise InputError("elastic: driven parts = none, must be at least 1; call drive or turn")
-        try:
-            found = frame.elasticState()
-        except (ValueError, RuntimeError) as error:
-            raise InputError(f"elastic: {error}") from None
-        if asked is not None and not found["load"]:
-            raise InputError(f"elastic: load = {asked:g}, must be left out: nothing resists")
-        factor = way / found["way"] if asked is None else asked / found["load"]
+        pressed = self._pressed(frame, {} if pressures is None else pressures)
+        if not (driven or pressed):
+            raise InputError("elastic: pressures, driven parts = none, must be some")
         solid = self.built
         assert isinstance(solid, SolidModel)
-        still, small = solid.snapshot(), solid.state_of(found["snapshot"])
-        arrays = {name: getattr(still, name) for name in SolidSnapshot.__dataclass_fields__}
-        for name in _LINEAR:
-            arrays[name] = arrays[name] + factor * (getattr(small, name) - arrays[name])
+        sum_of = _Sum(solid)
+        try:
+            if any(pressed.values()):
+                found = frame.pressedState(list(pressed), list(pressed.values()))
+                sum_of.add(found, 1.0 / found["way"])
+            if moves:
+                found = frame.elasticState(list(pressed))
+                if asked is not None and not found["load"]:
+                    raise ValueError(f"load = {asked:g}, must be left out: nothing resists")
+                missing = 0.0 if asked is None else asked - sum_of.load
+                factor = way / found["way"] if asked is None else missing / found["load"]
+                way = factor * found["way"]
+                sum_of.add(found, factor)
+        except (ValueError, RuntimeError) as error:
+            raise InputError(f"elastic: {error}") from None
         return SolidElasticState(
-            **arrays,
-            way=factor * found["way"],
-            load=factor * found["load"],
+            **sum_of.arrays,
+            way=way,
+            load=sum_of.load,
             rig=self,
-            plates=_times(factor, found["plates"]),
-            node_sets=_times(factor, found["node_sets"]),
+            plates=_rows(sum_of.plates),
+            node_sets=_rows(sum_of.node_sets),
         )
 
 
-def _times(factor: float, parts: Sequence[Sequence[float]]) -> tuple[tuple[float, ...], ...]:
-    return tuple(tuple(factor * value for value in one) for one in parts)
+class _Sum:
+    """Sum of small linear solutions, each by a factor, beside the state at rest."""
+
+    def __init__(self, solid: SolidModel) -> None:
+        self._solid, still = solid, solid.snapshot()
+        self._still = {name: getattr(still, name) for name in SolidSnapshot.__dataclass_fields__}
+        self.arrays, self.load = dict(self._still), 0.0
+        self.plates: Sums = 0.0
+        self.node_sets: Sums = 0.0
+
+    def add(self, found: Table, factor: float) -> None:
+        small = self._solid.state_of(found["snapshot"])
+        for name in _LINEAR:
+            grown = factor * (getattr(small, name) - self._still[name])
+            self.arrays[name] = self.arrays[name] + grown
+        self.load += factor * found["load"]
+        self.plates = self.plates + factor * np.array(found["plates"])
+        self.node_sets = self.node_sets + factor * np.array(found["node_sets"])
+
+
+def _rows(values: Sums) -> tuple[tuple[float, ...], ...]:
+    return tuple(tuple(one) for one in np.atleast_2d(values).tolist())

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How plates come onto a solid: before a part of its outside, or across its depth. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ...errors import InputError
+from ...models.grains import Model
+from ...require import NOT_NEGATIVE, quoted, require_flag, require_number, require_whole
+from ...specimens.space.specimen import SolidSpecimen
+from ..layout import NO_SLIDING, PartLayout, strip_of
+from ..parts import Part
+from ..places import SPACE, Jaw, Place, Vector, require_direction, require_vector
+from .patches import (
+    BOTTOM,
+    INWARDS,
+    TOP,
+    Patch,
+    box_around,
+    edges_of,
+    inwards_at,
+    patch_around,
+    side_patch,
+)
+from .solid_grains import SolidGrains
+
+#: Width that the stiffness of a line stands for, in mean diameters of the grains, as the length of
+#: a support in the plane [-].
+_WIDTH = 0.5
+#: Least part of a line's normal along z [-].
+_UPRIGHT = 0.5
+
+
+class SolidPartLayout(PartLayout, SolidGrains):
+    """Base of a rig that lays parts on a solid."""
+
+    built: Model
+    #: Where plates lie, by their numbers; jaws have none.
+    _patches: dict[int, Patch]
+    #: Lines along plates in the section along x and z, by their numbers, for maps [m].
+    _traces: dict[int, list[list[float]]]
+
+    def support(
+        self,
+        place: Place,
+        length: object = None,
+        *,
+        normal: Place = (0.0, 0.0, 0.0),
+        pinned: bool = False,
+        friction: float = 0.0,
+        bonded: bool = False,
+        strip: float | None = None,
+        seated: bool = False,
+    ) -> Part:
+        """Lay a plate against the part of the outside around a place.
+
+        Args:
+            place: x, y and z, on the outside [m].
+            length: Edge of the cube around the place, or edges of a box along x, y and z, in which
+                the outside lies before the plate [m]. None: a roller, which bears along a line
+                across the depth through x and z of the place, on the bottom or from above.
+            normal: x, y and z, into the specimen; zero: that of the nearest flat side.
+            pinned: It does not slide as long as it presses.
+            friction: Coefficient, of one that is not pinned [-]; no roller has one.
+            bonded: It pulls, too, and slides freely; no roller does.
+            strip: Stiffness per area of a soft layer between, E / h of one of thickness h [Pa/m];
+                None: there is none. No line has one.
+            seated: Must be False.
+
+        Raises:
+            InputError: for a place that is not on the outside, or a size out of range.
+        """
+        refuse("support", seated=seated)
+        specimen, at = self._specimen, require_vector("support: place", place, axes=SPACE)
+        inwards = require_vector("support: normal", normal, "", SPACE)
+        if any(inwards):
+            inwards = require_direction("support: normal", inwards, SPACE)
+        if require_flag("support: pinned", pinned):
+            friction = NO_SLIDING
+        friction = require_number("support: friction", friction, NOT_NEGATIVE)
+        bonded = require_flag("support: bonded", bonded)
+        if length is None:
+            if bonded or strip is not None or friction not in (0.0, NO_SLIDING):
+                raise InputError(
+                    "support: length = None, must be given for one that is bonded, or has friction "
+                    "or a strip; a line is a roller or pinned"
+                )
+            return self._line(at, inwards, pinned)
+        edges = edges_of(length)
+        into = np.array(inwards) if any(inwards) else inwards_at(specimen, at)
+        layer = strip_of("support", strip)
+        patch = patch_around(specimen, at, edges, into)
+        return self._patch("support", patch, friction, bonded, layer)
+
+    def platen(
+        self,
+        side: int,
+        *,
+        friction: float = 0.0,
+        bonded: bool = False,
+        strip: float | None = None,
+        seated: bool = False,
+    ) -> Part:
+        """Lay a plate along a whole flat side.
+
+        Args:
+            side: 0 bottom, 1 right, 2 top, 3 left, 4 front, 5 back.
+            friction: Coefficient [-].
+            bonded: It pulls, too. It slides freely along itself.
+            strip: As for `support` [Pa/m].
+            seated: Must be False.
+
+        Raises:
+            InputError: for a side that is not flat, or that there is not.
+        """
+        refuse("platen", seated=seated)
+        patch = side_patch(self._specimen, require_whole("platen: side", side))
+        friction = require_number("platen: friction", friction, NOT_NEGATIVE)
+        bonded = require_flag("platen: bonded", bonded)
+        return self._patch("platen", patch, friction, bonded, strip_of("platen", strip))
+
+    def jaw(
+        self,
+        place: Place,
+        radius: float,
+        *,
+        angle: float | None = None,
+        friction: float = 0.0,
+        strip: float | None = None,
+    ) -> Part:
+        """Lay a curved jaw across the depth of a disc, as of the plane; `contact_of` records it.
+
+        Args:
+            place: x, y and z of the jaw's middle, on the mantle; y does not count [m].
+            radius: Radius of the arc, at least the disc's; 1.5 times that by the ISRM [m].
+            angle: Angle of the disc before it [rad], at most 2 pi / 3, which it has by default; one
+                of the disc's own radius needs it.
+            friction: Coefficient [-]. Between two smooth ones a disc is free to turn, and no
+                loading of it begins.
+            strip: As for `support` [Pa/m].
+
+        Raises:
+            InputError: for a specimen that is no disc, a place off its rim by more than 5 % of its
+                radius, a radius below the disc's, an angle out of range or missing, or where
+                another part lies.
+        """
+        if self._specimen.kind != "solid-disc":
+            raise InputError("jaw: specimen = no disc, must be one; lay supports")
+        x, _, z = require_vector("jaw: place", place, axes=SPACE)
+        rim = 0.5 * self._specimen.dimensions["diameter"]
+        jaw = Jaw.of((x, z), (0.0, 0.0), rim, radius, angle)
+        values = (
+            (jaw.towards[0], 0.0, jaw.towards[1]),
+            jaw.radius / rim,
+            jaw.angle,
+            require_number("jaw: friction", friction, NOT_NEGATIVE),
+            strip_of("jaw", strip),
+        )
+        part = self._plate(
+            "jaw", lambda: self._solid.findJaw(*values), lambda: self._solid.layJaw(*values)
+        )
+        self._traces[part.number] = jaw.trace(rim)
+        return part
+
+    def _line(self, at: Vector, inwards: Vector, pinned: bool) -> Part:
+        """A roller or a head: deviation D99."""
+        given, upwards = any(inwards), inwards[2]
+        low, high = box_around(self._specimen)
+        if given and not abs(upwards) > _UPRIGHT:
+            raise InputError(
+                "support: normal = one across z, must be along z without a length; give a length"
+            )
+        above = upwards if given else 0.5 * (low[2] + high[2]) - at[2]
+        side = BOTTOM if above > 0.0 else TOP
+        width = _WIDTH * self._specimen.mean_diameter
+        values = (side, at[0], at[2], width, pinned)
+        place = (at[0], 0.5 * (low[1] + high[1]), at[2])
+        edges = np.array([width, high[1] - low[1], width])
+        return self._lay(
+            "support",
+            lambda: self._solid.findLine(*values),
+            lambda: self._solid.layLine(*values),
+            patch_around(self._specimen, place, edges, np.array(INWARDS[side])),
+        )
+
+    def _patch(self, kind: str, patch: Patch, friction: float, bonded: bool, strip: float) -> Part:
+        values = (patch.normal, patch.low, patch.high, friction, bonded, strip)
+        return self._lay(
+            kind,
+            lambda: self._solid.findPatch(*values),
+            lambda: self._solid.layPatch(*values),
+            patch,
+        )
+
+    def _lay(
+        self,
+        kind: str,
+        find: Callable[[], int],
+        lay: Callable[[], int],
+        patch: Patch,
+    ) -> Part:
+        """Lay a plate before a patch that no other one has."""
+        for number, there in self._patches.items():
+            if patch.overlaps(there):
+                other = Part(self, self.built.solver, "plate", number)
+                raise InputError(
+                    f"{kind}: part = {other}, lies there already, must be apart; take another place"
+                )
+        part = self._plate(kind, find, lay)
+        self._patches[part.number], self._traces[part.number] = patch, patch.trace
+        return part
+
+    @property
+    def _specimen(self) -> SolidSpecimen:
+        specimen: object = self.built.specimen
+        assert isinstance(specimen, SolidSpecimen)
+        return specimen
+
+
+def refuse(call: str, **given: object) -> None:
+    """Refuse arguments of a call that solids do not have.
+
+    Raises:
+        InputError: for one that is given.
+    """
+    for name, value in given.items():
+        if value:
+            raise InputError(
+                f"{call}: {name} = {quoted(value)}, must be left out for a solid, which has none"
+            )

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Own tests of solids under pressures: fluids, plates that are pressed and driven, static ones."""
+
+from __future__ import annotations
+
+import importlib
+import signal
+
+import numpy as np
+import pytest
+from killed_scripts import content, drawn, ended, killed, require_same, started
+
+import flexpm
+from flexpm.errors import InputError
+
+# importing flexpm has told Python where YADE is
+yade = importlib.import_module("yade")
+SIZE, MATERIAL = 0.012, "augig-table7"
+MODELS = pytest.mark.parametrize("model", ["flexible", "rigid"])
+#: A core under a fluid on its mantle, in a folder.
+SCRIPT = """
+import flexpm
+core = flexpm.Specimen.cylinder(0.012, 0.018, seed=1)
+
+built = flexpm.build(core, model="rigid")
+rig = flexpm.SolidPartRig(built, out="out", checkpoint_interval=INTERVAL)
+base, top = rig.platen(0), rig.platen(2)
+rig.press(top, 2e6)
+rig.fluid(2e6, side=1)
+rig.drive(top, (0, 0, -1), against=base, area=top.area, length=0.018)
+rig.stress_to(6e6)
+rig.relax()
+rig.fluid(3e6, side=1)
+rig.load(flexpm.Loading(rate=RATE, kind="waiting", max_strain=2e-3))
+"""
+
+
+def rig_of(specimen, model="flexible"):
+    yade.O.reset()
+    return flexpm.SolidPartRig(flexpm.build(specimen, MATERIAL, model))
+
+
+@pytest.fixture(scope="module")
+def core():
+    return flexpm.Specimen.cylinder(SIZE, 2.0 * SIZE, seed=1)
+
+
+@pytest.fixture(scope="module")
+def box():
+    return flexpm.Specimen.box(SIZE, SIZE, 1.5 * SIZE, seed=1)
+
+
+@MODELS
+def test_a_fluid_on_the_mantle_and_a_plate_press_alike(core, model):
+    rig, pressure = rig_of(core, model), 5e6
+    base, top = rig.platen(0), rig.platen(2)
+    rig.press(top, pressure)
+    rig.fluid(pressure, side=1)
+    stress = np.array(rig.built.solver.balance()["mean_stress"]) / pressure
+    assert stress == pytest.approx([-1.0, -1.0, -1.0, 0.0, 0.0, 0.0], abs=2e-3)
+    assert -top.force[2] == pytest.approx(pressure * top.area, rel=1e-3)
+    # the pressed plate is driven: its pressure ends, and its force goes on from there
+    rig.gauge("wide", (-0.5 * SIZE, 0.0, SIZE), (0.5 * SIZE, 0.0, SIZE), strain=True)
+    rig.drive(top, (0, 0, -1), against=base, area=top.area, length=2.0 * SIZE)
+    rig.strain_to(5e-4)
+    record = rig.record
+    assert record["axial_stress"][0] == pytest.approx(pressure, rel=0.05)
+    alone = flexpm.elastic(core, MATERIAL, model)
+    wide = record["wide"][-1] / record["axial_strain"][-1]
+    assert 0.0 < wide < 1.3 * alone["poissons_ratio"]
+    names = ("kinetic", "elastic", "damage", "friction", "damping", "drag")
+    stored = sum(record[f"{name}_energy"][-1] for name in names) - rig.initial_energy
+    assert stored == pytest.approx(record["boundary_work"][-1], rel=1e-4)
+    # it follows another pressure
+    rig.relax()
+    rig.fluid(2e6, side=1)
+    stress = rig.built.solver.balance()["mean_stress"]
+    assert [-stress[0], -stress[1]] == pytest.approx([2e6, 2e6], rel=5e-3)
+
+
+def test_sides_that_a_fluid_cannot_press_are_refused(core, box):
+    rig = rig_of(core)
+    refused = (
+        ({"side": 3}, "fluid: side = 3, must be one of 0, 1, 2, those of a cylinder"),
+        ({"side": []}, "fluid: side = none, must be at least 1"),
+        ({"side": 1.5}, "fluid: side = 1.5, must be a whole number"),
+        ({"side": 1, "hole": 0}, "fluid: hole = 0, must be left out for a solid"),
+    )
+    for sides, told in refused:
+        with pytest.raises(InputError, match=told):
+            rig.fluid(1e6, **sides)
+    with pytest.raises(InputError, match="fluid: pressure = -1.0 Pa, must be >= 0"):
+        rig.fluid(-1.0, side=1)
+    with pytest.raises(InputError, match="side = 6, must be one of 0, 1, 2, 3, 4, 5"):
+        rig_of(box).fluid(1e6, side=[1, 6])
+
+
+@MODELS
+def test_a_static_solution_under_pressures_is_where_steps_lead(box, model):
+    rig = rig_of(box, model)
+    walls = {side: rig.platen(side) for side in (0, 3, 5)}
+    top, right = rig.platen(2), rig.platen(1)
+    pressures = {top: 6e6, right: 2e6}
+    with pytest.raises(InputError, match="pressures, driven parts = none, must be some"):
+        rig.elastic()
+    found = rig.elastic(pressures)
+    for part, pressure in pressures.items():
+        along = np.dot(part.normal, found.force(part))
+        assert along == pytest.approx(pressure * part.area, rel=1e-6)
+    assert found.force(walls[0])[2] == pytest.approx(6e6 * top.area, rel=1e-6)
+    assert found.force(walls[3])[0] == pytest.approx(2e6 * right.area, rel=1e-6)
+    assert found.force(walls[5]) == pytest.approx((0.0, 0.0, 0.0), abs=1e-6 * 6e6 * top.area)
+    # a load of what is driven beside a pressure is the same, and pressures superpose
+    rig.drive(top, (0, 0, -1), against=walls[0])
+    driven = rig.elastic({right: 2e6}, load=6e6 * top.area)
+    assert driven.load == pytest.approx(6e6 * top.area)
+    assert driven.way == pytest.approx(-found.displacement(top)[2], rel=1e-6)
+    assert driven.force(right) == pytest.approx(found.force(right), rel=1e-6)
+    far = np.abs(found.positions - found.reference).max()
+    assert np.abs(driven.positions - found.positions).max() < 1e-6 * far
+    with pytest.raises(InputError, match="is driven, must not be"):
+        rig.elastic({top: 1e6})
+    with pytest.raises(InputError, match="pressures = 3, must be a table"):
+        rig.elastic(3)
+    # a plate without a pressure may move: nothing presses on it
+    assert rig.elastic({right: 0.0}, way=1e-6).force(right)[0] == pytest.approx(0.0, abs=1e-4)
+    assert rig.elastic(way=1e-6).force(right)[0] < -1.0
+    assert yade.O.iter == 0
+    rig.press(pressures)
+    for part in pressures:
+        way = np.dot(part.normal, part.displacement)
+        assert way == pytest.approx(np.dot(part.normal, found.displacement(part)), rel=0.02)
+
+
+@pytest.mark.parametrize("strips", [(1e12, None), (1e11, 2e11)])
+def test_strips_are_in_series_with_what_is_between_them(box, strips):
+    ways = []
+    for layers in ((None, None), strips):
+        rig = rig_of(box)
+        floor, top = (rig.platen(side, strip=one) for side, one in zip((0, 2), layers, strict=True))
+        rig.drive(top, (0, 0, -1), against=floor)
+        ways.append(rig.elastic(load=100.0).way)
+    alone = sum(1.0 / one for one in strips if one is not None) * 100.0 / top.area
+    # what bears more evenly gives a little less
+    assert ways[1] - ways[0] == pytest.approx(alone, rel=2e-3)
+    assert [part.get("strip") for part in rig.parts] == list(strips)
+    with pytest.raises(InputError, match="must be given for one that is .* or a strip"):
+        rig.support((0.5 * SIZE, 0.5 * SIZE, 1.5 * SIZE), strip=1e12)
+
+
+@MODELS
+def test_the_load_of_plates_follows_its_set_point(box, model):
+    rig = rig_of(box, model)
+    base, top = rig.platen(0, bonded=True), rig.platen(2, bonded=True)
+    rig.drive(top, (0, 0, 1), against=base, area=top.area, length=1.5 * SIZE, strength=10e6)
+    rig.load(flexpm.Loading(kind="waiting", control="load"))
+    record = rig.record
+    peak = int(np.argmax(record["load"]))
+    missed = np.abs(record["load"] - record["set_point"])[: int(0.9 * peak)]
+    assert missed.max() < 0.02 * record["load"].max()
+    # held nodes have no springs whose forces could be told ahead
+    rig = rig_of(box, model)
+    low = rig.hold(box=((0, 0, 0), (SIZE, SIZE, 0.3 * SIZE)))
+    high = rig.hold(where=lambda _x, _y, z: z > 1.2 * SIZE)
+    rig.drive(high, (0, 0, 1), against=low)
+    with pytest.raises(InputError, match="control = 'load', must be left out here"):
+        rig.load(flexpm.Loading(kind="waiting", control="load"))
+
+
+@pytest.mark.long
+def test_a_killed_test_under_a_fluid_goes_on_to_the_same_bits(tmp_path):
+    assert ended(started(tmp_path, SCRIPT)) == (0, "")
+    found = content(tmp_path / "out")
+    stages = [stage["stage"] for stage in found["inputs"]["stages"]]
+    assert stages.count("fluid") == 2
+    kills = [signal.SIGKILL, signal.SIGTERM]
+    (ends,) = killed(tmp_path, SCRIPT, [drawn(7, kills, found["steps"])])
+    assert ends == [*kills, 0]
+    require_same(tmp_path / "0", tmp_path / "out")
