@@ -77,10 +77,11 @@ TEST_CASE("A jaw lies before its angle of the mantle, to the hair", "[solids]")
 TEST_CASE("Jaws with friction hold a disc and bear what presses it", "[solids]")
 {
     const Packing p = disc();
-    for (const bool rigid : { false, true }) {
+    // between jaws of the disc's own radius facets bear whose normals are not the jaws'
+    for (const auto& [rigid, ratio] : { std::pair { false, 1.5 }, { false, 1.0 }, { true, 1.0 } }) {
         SolidState s = made(p, rigid);
         for (const double sign : { -1.0, 1.0 })
-            add_jaw_plate(s, { sign * up, 1.5, 1.0, 0.4 });
+            add_jaw_plate(s, { sign * up, ratio, 1.0, 0.4 });
         scale_masses(s, damping, dt);
         const PartGeometry parts { { 1 }, { 0 }, -1.0 * up, 1.0, 1.0 };
         const SolidDrive drive = drive_of(parts);
@@ -120,6 +121,8 @@ TEST_CASE("Jaws that cannot lie there are refused", "[solids]")
     CHECK_THROWS_WITH(
         add_jaw_plate(s, { {}, 1.5, 1.0 }), Catch::Contains("from the axis to a jaw"));
     CHECK_THROWS_WITH(add_jaw_plate(s, { -1.0 * up, 1.5, 0.0 }), Catch::Contains("angle of a jaw"));
+    CHECK_THROWS_WITH(
+        add_jaw_plate(s, { -1.0 * up, 1.5, 2.2 }), Catch::Contains("must be <= 2 pi / 3"));
     CHECK_THROWS_WITH(
         add_jaw_plate(s, { -1.0 * up, 1.5, 1.0, -0.1 }), Catch::Contains("friction of a plate"));
     CHECK_THROWS_WITH(contact_angle(s, 4), Catch::Contains("plate of a gauge = 4"));

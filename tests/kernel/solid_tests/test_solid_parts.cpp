@@ -89,8 +89,9 @@ TEST_CASE("A plate touches what of a side is in its box, to the hair", "[solids]
     const Vector top = p.solid.high;
     for (const double height : { 0.31, 0.5, 2.0 }) {
         const double high = std::min(height, 1.0) * top.z;
-        const int number = add_patch_plate(s, side(p, right, 0.0, height * top.z));
-        const Plate& plate = s.plates[number];
+        SolidState bare = s;
+        const Plate& plate =
+            bare.plates[add_patch_plate(bare, side(p, right, 0.0, height * top.z))];
         CHECK(plate.width == Approx(top.y * high).epsilon(1e-12));
         Vector middle;
         for (std::size_t i = 0; i < plate.facets.size(); ++i) {

@@ -17,13 +17,19 @@ namespace {
 /// Area over that of a triangle that is none, and gap over a radius that is none: round-off [-].
 constexpr double no_area = 1e-9, no_gap = 1e-9;
 
+/// Largest angle of a jaw: a facet further round does not face it [rad].
+constexpr double widest = 2.0944;
+
 constexpr Vector axis { 0.0, 1.0, 0.0 };
+
+constexpr Vector across_axis(Vector v) { return v - dot(v, axis) * axis; }
 
 void check(const SolidJaw& jaw)
 {
     check_not_negative("friction of a plate", jaw.friction, "");
     check_positive("angle of a jaw", jaw.angle, "rad");
-    check_positive("way from the axis to a jaw", norm(jaw.towards), "m");
+    check_positive("way from the axis to a jaw", norm(across_axis(jaw.towards)), "m");
+    if (jaw.angle > widest) refuse("angle of a jaw", jaw.angle, "rad", "must be <= 2 pi / 3");
     if (!(jaw.ratio >= 1.0))
         refuse("radius of a jaw over the disc's", jaw.ratio, "", "must be >= 1");
 }
@@ -42,7 +48,8 @@ Plate jaw_before(const SolidState& s, const SolidJaw& jaw)
     Plate p = plain_plate(s, SolidSide::bottom);
     p.side = -1;
     lay_strip(p, jaw.strip);
-    p.normal = (-1.0 / norm(jaw.towards)) * jaw.towards;
+    const Vector towards = across_axis(jaw.towards);
+    p.normal = (-1.0 / norm(towards)) * towards;
     const std::vector<HalfSpace> before = sector(-1.0 * p.normal, jaw.angle);
     double area = 0.0, reach = 0.0, middle = 0.0;
     for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t) {
