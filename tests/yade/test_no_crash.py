@@ -166,7 +166,8 @@ def test_what_can_be_done_goes_on(forks, snippet):
 CALLS = """
 kinds = {"float": FLOAT, "int": INT, "bool": True, "Vector3": (FLOAT, FLOAT, 0.0), "object": None,
          "list": [], "dict": {}, "tuple": (), "str": "x"}
-lists = {"nodes": [INT], "grains": [INT], "pressed": [INT], "pressures": [FLOAT]}
+lists = {"nodes": [INT], "grains": [INT], "pressed": [INT], "pressures": [FLOAT],
+         "floating": [INT]}
 def arguments(method):
     signature = method.__doc__.split("->")[0].split("(", 1)[1]
     found = re.findall(r"\\((?:[\\w.]*[.])?(\\w+)\\)(\\w+)", signature)[1:]

@@ -251,7 +251,7 @@ class PartFrame(TestFrame):
 
 class SolidPartFrame(PartFrame):
     def elasticState(self, floating: list[int]) -> _Named: ...  # type: ignore[override]
-    def pressedState(self, plates: list[int], pressures: list[float]) -> _Named: ...
+    def pressedState(self, pressed: list[int], pressures: list[float]) -> _Named: ...
     turns: bool
     middle: float
     reach: float

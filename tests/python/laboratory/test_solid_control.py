@@ -32,8 +32,8 @@ def test_an_elastic_box_is_loaded_as_without_control(model):
     rig.gauge("across", (0.0, 0.5 * SIZE, 0.5 * SIZE), (SIZE, 0.5 * SIZE, 0.5 * SIZE))
     rig.way_of("way", top, (0, 0, -1))
     rig.drive(top, (0, 0, -1), against=base, area=SIZE**2, length=SIZE)
-    with pytest.raises(InputError, match="must be one of across, way"):
-        rig.load(flexpm.Loading(kind="waiting", control="load"))
+    with pytest.raises(InputError, match="must be one of load, across, way"):
+        rig.load(flexpm.Loading(kind="waiting", control="stress"))
     rig.load(flexpm.Loading(0.1, kind="waiting", control="across", max_strain=1.5e-4))
     record = rig.record
     row = np.searchsorted(record["axial_strain"], 1e-4)

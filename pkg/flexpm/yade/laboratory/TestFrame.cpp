@@ -226,14 +226,14 @@ py::dict SolidPartFrame::elasticState(vector<int> floating) const
 	return dictOf(flexpm::elastic_part_state(unloaded(floating), parts(), Omega::instance().getScene()->dt));
 }
 
-py::dict SolidPartFrame::pressedState(vector<int> plates, vector<Real> pressures) const
+py::dict SolidPartFrame::pressedState(vector<int> pressed, vector<Real> pressures) const
 {
-	if (plates.size() != pressures.size())
-		flexpm::refuse("pressures", Real(pressures.size()), "", "must be one for each plate that is pressed, " + std::to_string(plates.size()));
-	const auto                         state = unloaded(plates);
+	if (pressed.size() != pressures.size())
+		flexpm::refuse("pressures", Real(pressures.size()), "", "must be one for each plate that is pressed, " + std::to_string(pressed.size()));
+	const auto                         state = unloaded(pressed);
 	std::vector<flexpm::PlatePressure> asked;
-	for (std::size_t i = 0; i < plates.size(); ++i)
-		asked.push_back({ plates[i], pressures[i] });
+	for (std::size_t i = 0; i < pressed.size(); ++i)
+		asked.push_back({ pressed[i], pressures[i] });
 	return dictOf(flexpm::pressed_part_state(state, parts(), asked));
 }
 

@@ -163,7 +163,7 @@ public:
 	vector<string>           columns() const override;
 	vector<Real>             values(GrainSolver& solver, Real stress, Real strain) const override;
 	boost::python::dict      elasticState(vector<int> floating) const;
-	boost::python::dict      pressedState(vector<int> plates, vector<Real> pressures) const;
+	boost::python::dict      pressedState(vector<int> pressed, vector<Real> pressures) const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SolidPartFrame, PartFrame,
@@ -174,7 +174,7 @@ public:
 		, /* ctor */
 		, .def("elasticState", &SolidPartFrame::elasticState, (boost::python::arg("floating")),
 			"Where the linear solution takes the scene's solid, which no step has moved, for a way or angle of what is driven that is so small that all is linear. floating: plates that are free to move along their normals. Returns the state as SolidSolver.snapshot() has it, forces and displacements of plates, those of node sets with moments and angles, way and load.")
-		.def("pressedState", &SolidPartFrame::pressedState, (boost::python::arg("plates"), boost::python::arg("pressures")),
+		.def("pressedState", &SolidPartFrame::pressedState, (boost::python::arg("pressed"), boost::python::arg("pressures")),
 			"The same under pressures on plates [Pa], where what is driven stays; the way is the part of them that acts [-].")
 	);
 	// clang-format on
