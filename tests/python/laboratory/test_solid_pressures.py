@@ -82,6 +82,7 @@ def test_sides_that_a_fluid_cannot_press_are_refused(core, box):
     rig = rig_of(core)
     refused = (
         ({"side": 3}, "fluid: side = 3, must be one of 0, 1, 2, those of a cylinder"),
+        ({}, "fluid: side = None, must be given"),
         ({"side": []}, "fluid: side = none, must be at least 1"),
         ({"side": 1.5}, "fluid: side = 1.5, must be a whole number"),
         ({"side": 1, "hole": 0}, "fluid: hole = 0, must be left out for a solid"),

@@ -101,6 +101,8 @@ def sides_under(specimen: SolidSpecimen, side: object, hole: object) -> list[int
     """
     if hole is not None:
         raise InputError(f"fluid: hole = {quoted(hole)}, must be left out for a solid; give a side")
+    if side is None:
+        raise InputError("fluid: side = None, must be given; number one or several")
     sides, there = sides_of(side), sorted({*FLAT[specimen.kind], _MANTLE})
     if strange := [one for one in sides if one not in there]:
         raise InputError(
