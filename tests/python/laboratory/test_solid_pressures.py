@@ -119,6 +119,7 @@ def test_a_static_solution_under_pressures_is_where_steps_lead(box, model):
     assert driven.force(right) == pytest.approx(found.force(right), rel=1e-6)
     far = np.abs(found.positions - found.reference).max()
     assert np.abs(driven.positions - found.positions).max() < 1e-6 * far
+    assert rig.elastic().force(top) == rig.elastic({right: 0.0}).force(top) == (0.0, 0.0, 0.0)
     with pytest.raises(InputError, match="is driven, must not be"):
         rig.elastic({top: 1e6})
     with pytest.raises(InputError, match="pressures = 3, must be a table"):

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TypeAlias
 
 import numpy as np
 from yade import wrapper
@@ -18,8 +17,6 @@ from ...results.solids.state import SolidSnapshot
 from ..parts import HeldNodes, Part, RigPart, require_part
 from .elastic_state import PartStatics, required_loading
 
-#: Forces and ways of parts, a row each; 0 before there is any.
-Sums: TypeAlias = "FloatArray | float"
 #: Arrays of a state that a linear solution changes.
 _LINEAR = (
     *("positions", "forces", "centres", "tetrahedron_stress", "corners"),
@@ -127,8 +124,9 @@ class _Sum:
         self._solid, still = solid, solid.snapshot()
         self._still = {name: getattr(still, name) for name in SolidSnapshot.__dataclass_fields__}
         self.arrays, self.load = dict(self._still), 0.0
-        self.plates: Sums = 0.0
-        self.node_sets: Sums = 0.0
+        # force and displacement of each; of node sets moment and angle, too
+        self.plates = np.zeros((len(solid.solver.plates()), 6))
+        self.node_sets = np.zeros((len(solid.solver.nodeSets()), 12))
 
     def add(self, found: Table, factor: float) -> None:
         small = self._solid.state_of(found["snapshot"])
@@ -136,9 +134,9 @@ class _Sum:
             grown = factor * (getattr(small, name) - self._still[name])
             self.arrays[name] = self.arrays[name] + grown
         self.load += factor * found["load"]
-        self.plates = self.plates + factor * np.array(found["plates"])
-        self.node_sets = self.node_sets + factor * np.array(found["node_sets"])
+        self.plates += factor * np.reshape(found["plates"], self.plates.shape)
+        self.node_sets += factor * np.reshape(found["node_sets"], self.node_sets.shape)
 
 
-def _rows(values: Sums) -> tuple[tuple[float, ...], ...]:
-    return tuple(tuple(one) for one in np.atleast_2d(values).tolist())
+def _rows(values: FloatArray) -> tuple[tuple[float, ...], ...]:
+    return tuple(tuple(one) for one in values.tolist())
