@@ -67,6 +67,12 @@ def until_regained(curve: Curve) -> Curve:
     return curve.until(first + int(regained[0])) if len(regained) else curve
 
 
+def regained_peak(curve: Curve) -> float | None:
+    """Axial stress of the first peak that has been left by 10 % and regained [Pa]; None without."""
+    first = until_regained(curve)
+    return None if len(first) == len(curve) else float(np.max(first["axial_stress"]))
+
+
 def elastic_rows(curve: Curve) -> slice:
     """Rows of the loading branch between 5 and 25 % of the largest stress."""
     stress = differential_stress(curve)

@@ -285,6 +285,26 @@ def test_a_disc_is_as_strong_as_when_it_split(first, valley, last, test):
         assert result.status == "no_peak"
 
 
+@given(st.floats(0.5, 0.85), st.floats(1.05, 3.0))
+def test_a_strength_that_broken_grains_bear_is_doubtful(valley, last):
+    """A core falls by more than 10 %, and locks; a disc's first peak is its strength anyway."""
+    peak = last * 10e6
+    rows = [*np.linspace(0.0, 10e6, 40), valley * 10e6, peak, 0.8 * peak]
+    result = result_of(of_stresses(rows), test="triaxial")
+    result.measure(QUASISTATIC)
+    told = [line for line in result.warnings if "broken grains" in line]
+    assert len(told) == 1 and "first peak of 10 MPa" in told[0]
+    assert told[0].startswith(f"peak_stress = {1e-6 * peak:.4g} MPa")
+    for test, record in [
+        ("triaxial", [*rows[:-2], 0.99 * 10e6]),  # the first peak is the largest stress
+        ("triaxial", [*rows[:40], 0.95 * 10e6, *rows[-2:]]),  # no fall
+        ("brazilian", rows),
+    ]:
+        result = result_of(of_stresses(record), test=test)
+        result.measure(QUASISTATIC)
+        assert not any("broken grains" in line for line in result.warnings)
+
+
 def test_falls_while_the_plates_find_their_place_are_no_splitting():
     record = of_stresses([0.0, 1e6, 0.5e6, 4e6, 8e6, 2e6])
     result = result_of(record, test="brazilian")
