@@ -48,7 +48,13 @@ def run_at(k: float, specimen: flexpm.Specimen, test: str, model: str, confineme
     factor = k / rates.rates_of(test, model).constant
     pressure = confinement if test == "biaxial" else 0.0
     return flexpm.run(
-        test, specimen, model=model, rate=factor, confinement=pressure, stop_ratio=0.8
+        test,
+        specimen,
+        model=model,
+        rate=factor,
+        confinement=pressure,
+        stop_ratio=0.8,
+        loading="constant",
     )
 
 
