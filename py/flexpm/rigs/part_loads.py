@@ -54,7 +54,8 @@ class PartLoads(PartLayout):
                 along its normal and a crosshead, which then moves in its place (deviation D95).
                 The record has the columns ``crosshead``, its way along the loading [m], and
                 ``machine_energy``, stored in the spring [J], beside those of the plate; its
-                energies are those of the specimen. None: the plate itself is moved.
+                energies are those of the specimen; a jaw of a solid must be smooth. None: the plate
+                itself is moved.
 
         Raises:
             InputError: for what is no part of this rig or is there twice, nodes that are not held

@@ -5,6 +5,7 @@
 
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
+#include <flexpm/kernel/solid_tests/solid_jaws.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>

@@ -17,7 +17,7 @@ from flexpm.errors import InputError
 yade = importlib.import_module("yade")
 SIZE, MATERIAL = 0.012, "augig-table7"
 MODELS = pytest.mark.parametrize("model", ["flexible", "rigid"])
-#: A core under a fluid on its mantle, in a folder.
+#: A core under a fluid on its mantle, then in a soft machine, in a folder.
 SCRIPT = """
 import flexpm
 core = flexpm.Specimen.cylinder(0.012, 0.018, seed=1)
@@ -27,7 +27,7 @@ rig = flexpm.SolidPartRig(built, out="out", checkpoint_interval=INTERVAL)
 base, top = rig.platen(0), rig.platen(2)
 rig.press(top, 2e6)
 rig.fluid(2e6, side=1)
-rig.drive(top, (0, 0, -1), against=base, area=top.area, length=0.018)
+rig.drive(top, (0, 0, -1), against=base, area=top.area, length=0.018, machine=1e8)
 rig.stress_to(6e6)
 rig.relax()
 rig.fluid(3e6, side=1)

@@ -149,6 +149,19 @@ inline Vector point_normal(const Plate& p, int index)
 /// What a plate's face goes along its normal at a point as the plate turns by 1 rad [m].
 inline double point_arm(const Plate& p, int index) { return p.seated ? p.arms[index] : 0.0; }
 
+/// Displacement of the crosshead behind a plate, or its own without a machine [m].
+inline Vector crosshead_displacement(const Plate& p)
+{
+    return p.displacement + p.machine_give * p.normal;
+}
+
+/// Stored in the spring of the machine [J]. What the crosshead works is the plate's work on the
+/// specimen and what this grows by.
+inline double machine_energy(const Plate& p)
+{
+    return 0.5 * p.machine_stiffness * p.machine_give * p.machine_give;
+}
+
 /// Whether its place in a step follows from its contacts: by its machine or by its seat.
 inline bool is_soft(const Plate& p) { return p.seated || p.machine_stiffness > 0.0; }
 

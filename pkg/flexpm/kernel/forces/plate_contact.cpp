@@ -135,13 +135,6 @@ void set_machine(Assembly& a, int plate, double stiffness)
     p.machine_give = dot(p.normal, p.force) / stiffness;
 }
 
-Vector crosshead_displacement(const Plate& p) { return p.displacement + p.machine_give * p.normal; }
-
-double machine_energy(const Plate& p)
-{
-    return 0.5 * p.machine_stiffness * p.machine_give * p.machine_give;
-}
-
 int plate_points(const Plate& p) { return static_cast<int>(p.facets.size()) * p.points; }
 
 PlatePoint plate_point(const Plate& p, int index)

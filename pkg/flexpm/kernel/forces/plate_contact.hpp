@@ -30,13 +30,6 @@ void set_velocity(Assembly& a, int plate, Vector velocity);
 ///         plate has another spring
 void set_machine(Assembly& a, int plate, double stiffness);
 
-/// Displacement of the crosshead behind a plate, or its own without a machine [m].
-Vector crosshead_displacement(const Plate& p);
-
-/// Stored in the spring of the machine [J]. What the crosshead works is the plate's work on the
-/// specimen and the growth of this.
-double machine_energy(const Plate& p);
-
 /// Move the plates over a step `dt`, update their forces on the grains, and integrate the loaded
 /// ones. Called by step() between contacts and grains.
 void update_plates(Assembly& a, double dt, double damping);

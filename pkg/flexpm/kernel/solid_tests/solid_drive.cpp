@@ -30,6 +30,15 @@ void set_velocity(SolidState& s, const SolidDrive& drive, double velocity, doubl
     if (drive.moves_top()) prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
 }
 
+/// Part of the way of its crosshead that a driven plate goes, by a linear solution [-]: 1 without a
+/// soft machine.
+double way_of_plate(const SolidState& s, const SolidDrive& drive, const SolidField& field)
+{
+    if (drive.plates.empty()) return 1.0;
+    const double machine = s.plates[drive.plates.front()].machine_stiffness;
+    return machine > 0.0 ? machine / (machine + field.load / drive.length) : 1.0;
+}
+
 /// Let damping act on all motion.
 void forget_loading(SolidState& s)
 {
@@ -87,14 +96,18 @@ void start(SolidState& s, const SolidDrive& drive, const SolidField& field, doub
         if (plate.loaded) plate.displacement = part * field.plate_way(i) * plate.normal;
     }
     const Vector way = part * drive.length * drive.direction;
-    for (int plate : drive.plates)
-        s.plates[plate].displacement = way;
+    const double of_way = way_of_plate(s, drive, field);
+    for (int number : drive.plates) {
+        Plate& plate = s.plates[number];
+        plate.displacement = of_way * way;
+        plate.machine_give = dot(plate.normal, way - plate.displacement);
+    }
     drive.for_each_set([&](int set, double sense) {
         NodeSet& moved = s.node_sets[set];
         (drive.turns ? moved.angle : moved.displacement) = sense * way;
     });
     set_velocity(s, drive, velocity, dt);
-    begin_from(s, field, part, velocity / drive.length);
+    begin_from(s, field, of_way * part, of_way * velocity / drive.length);
     promise_work(s, dt);
     if (!undamped) forget_loading(s);
 }
@@ -105,7 +118,7 @@ void take_over(SolidState& s, const SolidDrive& drive, const SolidField& field, 
     check(velocity, dt);
     const double before = kinetic_of_velocities(s);
     set_velocity(s, drive, velocity, dt);
-    add_motion(s, field, velocity / drive.length);
+    add_motion(s, field, way_of_plate(s, drive, field) * velocity / drive.length);
     promise_work(s, dt);
     s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
     if (!undamped) forget_loading(s);

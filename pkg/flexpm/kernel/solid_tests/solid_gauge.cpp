@@ -88,11 +88,25 @@ double plate_way(const SolidState& s, int plate, Vector direction)
     return dot(plate_at(s, plate).displacement, direction);
 }
 
-double plate_rate(const SolidState& s, int plate, Vector direction)
+double crosshead_way(const SolidState& s, int plate, Vector direction)
+{
+    return dot(crosshead_displacement(plate_at(s, plate)), direction);
+}
+
+double crosshead_rate(const SolidState& s, int plate, Vector direction)
 {
     const Plate& read = plate_at(s, plate);
     return dot(read.loaded ? s.loading.of_plate(plate).velocity : read.velocity, direction);
 }
+
+double plate_rate(const SolidState& s, int plate, Vector direction, const Array<double>& velocity)
+{
+    const Plate& read = plate_at(s, plate);
+    return crosshead_rate(s, plate, direction)
+        - give_rate(s, read, velocity) * dot(read.normal, direction);
+}
+
+double machine_energy(const SolidState& s, int plate) { return machine_energy(plate_at(s, plate)); }
 
 double contact_angle(const SolidState& s, int plate)
 {

@@ -26,8 +26,17 @@ double opening_in_space(const Array<double>& moved, const GaugePoints& gauge, Ve
 /// @throws std::invalid_argument  if there is no such plate
 double plate_way(const SolidState& s, int plate, Vector direction);
 
-/// What this grows by in a unit of time with the motion that the loading gives [m/s].
-double plate_rate(const SolidState& s, int plate, Vector direction);
+/// The same of the crosshead behind it, which is where the plate is without a machine [m].
+double crosshead_way(const SolidState& s, int plate, Vector direction);
+
+/// What these grow by in a unit of time with the motion that the loading gives [m/s].
+/// @param velocity  that it gives to the nodes
+double plate_rate(const SolidState& s, int plate, Vector direction, const Array<double>& velocity);
+double crosshead_rate(const SolidState& s, int plate, Vector direction);
+
+/// Stored in the spring of the machine behind a plate [J].
+/// @throws std::invalid_argument  if there is no such plate
+double machine_energy(const SolidState& s, int plate);
 
 /// Angle over which a disc lies against a jaw, in the mean over its depth: that of the area in
 /// contact [rad]; 0 of other plates.

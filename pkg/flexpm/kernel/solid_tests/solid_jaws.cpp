@@ -5,10 +5,12 @@
 #include <flexpm/kernel/solid_tests/solid_sets.hpp>
 #include <flexpm/kernel/solid_tests/surface_pieces.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
+#include <flexpm/kernel/solids/solid_plan.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace flexpm {
 
@@ -40,6 +42,74 @@ std::vector<HalfSpace> sector(Vector towards, double angle)
     const Vector aside = cross(axis, towards);
     const double c = std::cos(0.5 * angle), sine = std::sin(0.5 * angle);
     return { { c * aside - sine * towards, 0.0 }, { -1.0 * (c * aside) - sine * towards, 0.0 } };
+}
+
+/// Least cosine between a plate's normal and that of a triangle, inwards, that may touch it.
+constexpr double facing = 0.5;
+
+/// A plate that touches the mantle where this reaches farthest against its normal.
+Plate touching_plate(const SolidState& s, SolidSide side)
+{
+    Plate p = plain_plate(s, side);
+    for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t) {
+        if (s.surface.side[t] != static_cast<int>(SolidSide::mantle)) continue;
+        const Vector outwards = area_vector(s, t);
+        if (-dot(p.normal, outwards) > facing * norm(outwards)) add_contact(s, p, t);
+    }
+    if (p.facets.empty())
+        refuse("add_disc_plates: triangles before side " + std::to_string(p.side), 0.0, "",
+            "must be above 0; give a disc");
+    for (int t : p.facets)
+        p.gap.push_back(dot(p.normal, middle(s.grains.reference, s.surface.nodes[t])));
+    const auto first = std::min_element(p.gap.begin(), p.gap.end());
+    const double nearest = *first;
+    p.position = middle(s.grains.reference, s.surface.nodes[p.facets[first - p.gap.begin()]]);
+    for (double& gap : p.gap)
+        gap = gap - nearest < no_gap * std::fabs(nearest) ? 0.0 : gap - nearest;
+    p.opening = p.gap;
+    return p;
+}
+
+void hold(SolidState& s, int node, int axis)
+{
+    const int i = s.grains.component(node, axis);
+    s.grains.velocity[i] = 0.0;
+    s.grains.prescribed[i] = 1;
+}
+
+/// Keep what a plate touches from sliding across the disc's axis; returns a node of it.
+int keep_from_rolling(SolidState& s, const Plate& p)
+{
+    int held = -1;
+    for (std::size_t i = 0; i < p.facets.size(); ++i) {
+        if (p.gap[i] > 0.0) continue;
+        std::array<int, 3> nodes = s.surface.nodes[p.facets[i]];
+        if (!s.bodies.empty()) nodes.fill(s.grains.centre(s.surface.grain[p.facets[i]]));
+        for (int n : nodes)
+            hold(s, n, 0);
+        held = nodes.front();
+    }
+    return held;
+}
+
+/// Make a plate that has all of its contacts, before the mantle of a disc about the y axis, a jaw:
+/// gaps and normals are those of two circles, the inner one touching each facet.
+void bend(const SolidState& s, Plate& p, double disc_radius, double jaw_radius)
+{
+    p.disc_radius = disc_radius;
+    p.jaw_radius = jaw_radius;
+    const Vector centre = (jaw_radius - disc_radius) * p.normal;
+    p.gap.assign(p.facets.size(), 0.0);
+    p.normals.clear();
+    for (int i = 0; i < static_cast<int>(p.facets.size()); ++i) {
+        const Vector outwards = area_vector(s, p.facets[i]);
+        const Vector from = (disc_radius / norm(outwards)) * outwards - centre;
+        const double gap = jaw_radius - norm(from);
+        p.gap[i] = gap < no_gap * jaw_radius ? 0.0 : gap;
+        const Vector normal = (-1.0 / norm(from)) * from;
+        p.normals.insert(p.normals.end(), { normal.x, normal.y, normal.z });
+    }
+    p.opening = p.gap;
 }
 
 Plate jaw_before(const SolidState& s, const SolidJaw& jaw)
@@ -81,6 +151,28 @@ Plate jaw_before(const SolidState& s, const SolidJaw& jaw)
 bool covers(const Plate& plate) { return plate.width > 0.0 || plate.jaw_radius > 0.0; }
 
 }  // namespace
+
+void add_disc_plates(SolidState& s, double jaw_radius)
+{
+    check_not_negative("radius of a jaw", jaw_radius, "m");
+    if (!s.plates.empty())
+        refuse("add_disc_plates: plates", static_cast<double>(s.plates.size()), "", "must be 0");
+    std::vector<Plate> plates;
+    for (const SolidSide side : { SolidSide::bottom, SolidSide::top })
+        plates.push_back(touching_plate(s, side));
+    for (Plate& plate : plates) {
+        if (jaw_radius == 0.0) continue;
+        const double disc_radius = std::fabs(plate.position.z);
+        if (!(jaw_radius > disc_radius))
+            refuse("radius of a jaw", jaw_radius, "m",
+                "must be > " + std::to_string(disc_radius) + " m, the disc's");
+        bend(s, plate, disc_radius, jaw_radius);
+    }
+    s.plates = plates;
+    keep_from_rolling(s, s.plates.back());
+    hold(s, keep_from_rolling(s, s.plates.front()), 1);
+    prepare_step(s);
+}
 
 int add_jaw_plate(SolidState& s, const SolidJaw& jaw)
 {

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Curved jaws against the mantle of a disc about the y axis. SI units.
+/// @file  Plates and curved jaws against the mantle of a disc about the y axis. SI units.
 /// Deviation D95: gaps and normals are those of two circles, the inner one touching each facet.
 #pragma once
 
 #include <flexpm/kernel/solids/solid_state.hpp>
 
 namespace flexpm {
+
+/// Lay plates below and on top of a disc, as bottom and top, that touch it and press alone. What
+/// they touch at first does not move along x, else the disc would roll (deviation D28), and one
+/// place of it not along y. Masses must be scaled again afterwards.
+/// @param jaw_radius  of curved jaws [m]; 0: plates are flat
+/// @throws std::invalid_argument  if there are plates, no mantle faces them, or a radius is no
+///         larger than the disc's
+void add_disc_plates(SolidState& s, double jaw_radius = 0.0);
 
 struct SolidJaw {
     Vector towards;         ///< from the disc's axis to the jaw's middle, across the axis

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace flexpm {
@@ -91,10 +92,11 @@ double push_rate(const SolidState& s, const std::vector<int>& plates, Vector dir
     double sum = 0.0;
     for (int number : plates) {
         const Plate& plate = s.plates[number];
+        const double give = give_rate(s, plate, velocity);
         for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
             if (!(plate.bonded || plate.opening[i] < 0.0)) continue;
             const auto& nodes = s.surface.nodes[plate.facets[i]];
-            Vector way = -1.0 * plate.velocity;
+            Vector way = give * plate.normal - plate.velocity;
             for (int k = 0; k < 3; ++k)
                 way = way + corner_share(plate, i, k) * space_vector(velocity, nodes[k]);
             const Vector normal = normal_at(plate, i), across = dot(normal, way) * normal;
@@ -130,12 +132,12 @@ EndForces ends_of(const SolidState& s, const PartGeometry& parts)
 }
 
 /// Where the elastic solution takes a specimen, for a way so small that all is linear.
-SolidPartState moved_state(const SolidState& s, const PartGeometry& parts, double dt)
+SolidPartState moved_state(SolidState s, const PartGeometry& parts, double dt)
 {
     check(s, parts);
     const SolidField field = elastic_field(s, drive_of(parts));
-    SolidPartState found { s };
-    found.softening = elastic_strain(s, field, 1.0);  // a way: the field is that of 1 m
+    SolidPartState found { std::move(s) };
+    found.softening = elastic_strain(found.state, field, 1.0);  // a way: the field is that of 1 m
     found.way = std::min(small_strain * parts.length, small_part * found.softening);
     start(found.state, drive_of(parts), field, found.way, 1.0, true, dt);
     sum_node_sets(found.state, 0.0);
@@ -220,7 +222,7 @@ SolidPartState elastic_part_state(const SolidState& s, const PartGeometry& parts
 {
     SolidState held = s;
     hold_touching(held);
-    return moved_state(held, parts, dt);
+    return moved_state(std::move(held), parts, dt);
 }
 
 SolidPartState pressed_part_state(
@@ -268,7 +270,10 @@ TestScales solid_part_scales(
     const SolidState& s, const PartGeometry& parts, double strength, double dt)
 {
     check_not_negative("strength", strength, "Pa");
-    const SolidPartState moved = moved_state(s, parts, dt);
+    SolidState specimen = s;
+    for (Plate& plate : specimen.plates)
+        plate.machine_stiffness = 0.0;
+    const SolidPartState moved = moved_state(std::move(specimen), parts, dt);
     const double stiffness = moved.load / moved.way, softening = moved.softening;
     check_positive("stiffness that the driven plates feel", stiffness, "N/m");
     const double mass = 2.0 * kinetic_of_velocities(moved.state);

@@ -4,6 +4,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/motion/loaded_plate.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
+#include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_plan.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
 
@@ -15,6 +16,19 @@
 
 namespace flexpm {
 
+Vector middle(const Array<double>& values, const std::array<int, 3>& nodes)
+{
+    return (1.0 / 3.0)
+        * (space_vector(values, nodes[0]) + space_vector(values, nodes[1])
+            + space_vector(values, nodes[2]));
+}
+
+void add_contact(const SolidState& s, Plate& p, int triangle)
+{
+    p.facets.push_back(triangle);
+    p.area.push_back(norm(area_vector(s, triangle)));
+}
+
 namespace {
 
 /// A stiffness of a grain's own contacts over all grains [Pa/m].
@@ -24,14 +38,6 @@ double mean_stiffness(const SolidState& s, double LawParameters::*stiffness)
     for (int g = 0; g < s.grains.count; ++g)
         sum += s.contacts.laws[s.grains.law_index(g, g)].*stiffness;
     return sum / s.grains.count;
-}
-
-/// Mean of a vector over a triangle.
-Vector middle(const Array<double>& values, const std::array<int, 3>& nodes)
-{
-    return (1.0 / 3.0)
-        * (space_vector(values, nodes[0]) + space_vector(values, nodes[1])
-            + space_vector(values, nodes[2]));
 }
 
 /// A vector where a contact lies on its triangle.
@@ -117,40 +123,6 @@ void take_over_pressure(SolidState& s, Plate& p)
     s.ledger.initial += solid_plate_energy(p);
 }
 
-void add_contact(const SolidState& s, Plate& p, int triangle)
-{
-    p.facets.push_back(triangle);
-    p.area.push_back(norm(area_vector(s, triangle)));
-}
-
-/// Least cosine between a plate's normal and that of a triangle, inwards, that may touch it.
-constexpr double facing = 0.5;
-/// Gap over the way from end to end that is none: round-off [-].
-constexpr double no_gap = 1e-9;
-
-/// A plate that touches the mantle where this reaches farthest against its normal.
-Plate touching_plate(const SolidState& s, SolidSide side)
-{
-    Plate p = plain_plate(s, side);
-    for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t) {
-        if (s.surface.side[t] != static_cast<int>(SolidSide::mantle)) continue;
-        const Vector outwards = area_vector(s, t);
-        if (-dot(p.normal, outwards) > facing * norm(outwards)) add_contact(s, p, t);
-    }
-    if (p.facets.empty())
-        refuse("add_disc_plates: triangles before side " + std::to_string(p.side), 0.0, "",
-            "must be above 0; give a disc");
-    for (int t : p.facets)
-        p.gap.push_back(dot(p.normal, middle(s.grains.reference, s.surface.nodes[t])));
-    const auto first = std::min_element(p.gap.begin(), p.gap.end());
-    const double nearest = *first;
-    p.position = middle(s.grains.reference, s.surface.nodes[p.facets[first - p.gap.begin()]]);
-    for (double& gap : p.gap)
-        gap = gap - nearest < no_gap * std::fabs(nearest) ? 0.0 : gap - nearest;
-    p.opening = p.gap;
-    return p;
-}
-
 /// Whether a plate lies before a grain that is not loose.
 bool bears_any(const SolidState& s, const Plate& plate)
 {
@@ -165,46 +137,64 @@ Plate& plate_at(SolidState& s, int plate)
     return s.plates[plate];
 }
 
-void hold(SolidState& s, int node, int axis)
+/// Work on the specimen of a plate that is driven, over a step after which its force is known [J].
+/// @param before  force at its beginning [N]
+double work_of_step(const Plate& plate, Vector before, double dt)
 {
-    const int i = s.grains.component(node, axis);
-    s.grains.velocity[i] = 0.0;
-    s.grains.prescribed[i] = 1;
+    const Vector force = 0.5 * (before + plate.force);
+    const double work = dt * dot(force, plate.velocity);
+    if (!(plate.machine_stiffness > 0.0)) return work;
+    const double give = plate.machine_give - dot(plate.normal, before) / plate.machine_stiffness;
+    return work - give * dot(force, plate.normal);
 }
 
-/// Keep what a plate touches from sliding across the disc's axis; returns a node of it.
-int keep_from_rolling(SolidState& s, const Plate& p)
+/// A contact of a plate that gives way.
+struct SoftContact {
+    double gap;        ///< before it gives [m]
+    double stiffness;  ///< [N/m]
+    double opens;      ///< part of a give by which the gap grows [-]
+};
+
+std::vector<SoftContact> contacts_after(const SolidState& s, const Plate& plate, double dt)
 {
-    int held = -1;
-    for (std::size_t i = 0; i < p.facets.size(); ++i) {
-        if (p.gap[i] > 0.0) continue;
-        std::array<int, 3> nodes = s.surface.nodes[p.facets[i]];
-        if (!s.bodies.empty()) nodes.fill(s.grains.centre(s.surface.grain[p.facets[i]]));
-        for (int n : nodes)
-            hold(s, n, 0);
-        held = nodes.front();
+    std::vector<SoftContact> contacts;
+    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
+        const int triangle = plate.facets[i], grain = s.surface.grain[triangle];
+        Vector way = -1.0 * plate.displacement;
+        for (int k = 0; k < 3; ++k) {
+            const int node = s.surface.nodes[triangle][k];
+            way = way + corner_share(plate, i, k) * displacement_before(s, grain, node, -dt);
+        }
+        const Vector normal = normal_at(plate, i);
+        contacts.push_back({ plate.gap[i] + dot(normal, way), point_stiffness(plate, i),
+            dot(normal, plate.normal) });
     }
-    return held;
+    return contacts;
+}
+
+/// The give at which spring and contacts balance. What is missing to that is a concave function of
+/// it, in straight pieces, as ever fewer contacts bear: Newton's method goes up to its root from
+/// the first step on, and ends on the root's piece.
+double balanced_give(const Plate& plate, const std::vector<SoftContact>& contacts)
+{
+    double give = 0.0;
+    for (std::size_t look = 0; look < contacts.size() + 2; ++look) {
+        double missing = plate.machine_stiffness * (plate.machine_give + give);
+        double stiffness = plate.machine_stiffness;
+        for (const SoftContact& c : contacts) {
+            const double gap = c.gap + give * c.opens;
+            if (!(plate.bonded || gap < 0.0)) continue;
+            missing += c.stiffness * gap * c.opens;
+            stiffness += c.stiffness * c.opens * c.opens;
+        }
+        const double change = -missing / stiffness;
+        if (give + change == give) break;
+        give += change;
+    }
+    return give;
 }
 
 }  // namespace
-
-void bend(const SolidState& s, Plate& p, double disc_radius, double jaw_radius)
-{
-    p.disc_radius = disc_radius;
-    p.jaw_radius = jaw_radius;
-    const Vector centre = (jaw_radius - disc_radius) * p.normal;
-    p.gap.assign(p.facets.size(), 0.0);
-    p.normals.assign(3 * p.facets.size(), 0.0);
-    for (int i = 0; i < static_cast<int>(p.facets.size()); ++i) {
-        const Vector outwards = area_vector(s, p.facets[i]);
-        const Vector from = (disc_radius / norm(outwards)) * outwards - centre;
-        const double gap = jaw_radius - norm(from);
-        p.gap[i] = gap < no_gap * jaw_radius ? 0.0 : gap;
-        set_axes(p.normals, i, (-1.0 / norm(from)) * from);
-    }
-    p.opening = p.gap;
-}
 
 void roughen(Plate& plate, double friction)
 {
@@ -290,28 +280,6 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded)
     p.opening.assign(p.facets.size(), 0.0);
     take_over_pressure(s, p);
     s.plates.push_back(p);
-    prepare_step(s);
-}
-
-void add_disc_plates(SolidState& s, double jaw_radius)
-{
-    check_not_negative("radius of a jaw", jaw_radius, "m");
-    if (!s.plates.empty())
-        refuse("add_disc_plates: plates", static_cast<double>(s.plates.size()), "", "must be 0");
-    std::vector<Plate> plates;
-    for (const SolidSide side : { SolidSide::bottom, SolidSide::top })
-        plates.push_back(touching_plate(s, side));
-    for (Plate& plate : plates) {
-        if (jaw_radius == 0.0) continue;
-        const double disc_radius = std::fabs(plate.position.z);
-        if (!(jaw_radius > disc_radius))
-            refuse("radius of a jaw", jaw_radius, "m",
-                "must be > " + std::to_string(disc_radius) + " m, the disc's");
-        bend(s, plate, disc_radius, jaw_radius);
-    }
-    s.plates = plates;
-    keep_from_rolling(s, s.plates.back());
-    hold(s, keep_from_rolling(s, s.plates.front()), 1);
     prepare_step(s);
 }
 
@@ -404,6 +372,49 @@ void press(SolidState& s, int plate, double pressure)
     p.load = pressure * p.width;
 }
 
+void set_machine(SolidState& s, int plate, double stiffness)
+{
+    check_positive("stiffness of a machine", stiffness, "N/m");
+    Plate& p = plate_at(s, plate);
+    if (p.machine_stiffness > 0.0) {
+        refuse("stiffness of a machine", stiffness, "N/m",
+            "must be given once, was " + number(p.machine_stiffness) + " N/m");
+    }
+    if (!p.normals.empty() && p.friction > 0.0)
+        refuse("friction of a jaw in a soft machine", p.friction, "", "must be 0 in space");
+    p.machine_stiffness = stiffness;
+    p.machine_give = dot(p.normal, p.force) / stiffness;
+}
+
+void give_way(SolidState& s, double dt)
+{
+    for (Plate& plate : s.plates) {
+        if (!(plate.machine_stiffness > 0.0) || plate.loaded) continue;
+        const double give = balanced_give(plate, contacts_after(s, plate, dt));
+        plate.machine_give += give;
+        plate.displacement = plate.displacement - give * plate.normal;
+    }
+}
+
+double give_rate(const SolidState& s, const Plate& plate, const Array<double>& velocity)
+{
+    if (!(plate.machine_stiffness > 0.0) || plate.loaded) return 0.0;
+    double growth = 0.0, stiffness = plate.machine_stiffness;
+    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
+        if (!(plate.bonded || plate.opening[i] < 0.0)) continue;
+        Vector way = plate.velocity;
+        for (int k = 0; k < 3; ++k) {
+            const int node = s.surface.nodes[plate.facets[i]][k];
+            way = way - corner_share(plate, i, k) * space_vector(velocity, node);
+        }
+        const Vector normal = normal_at(plate, i);
+        const double along = dot(normal, plate.normal), spring = point_stiffness(plate, i);
+        growth += spring * along * dot(normal, way);
+        stiffness += spring * along * along;
+    }
+    return growth / stiffness;
+}
+
 void sum_plates(SolidState& s, double dt, double damping)
 {
     for (std::size_t number = 0; number < s.plates.size(); ++number) {
@@ -411,11 +422,13 @@ void sum_plates(SolidState& s, double dt, double damping)
         const Vector before = plate.force;
         plate.force = force_of(plate);
         if (plate.loaded) {
+            if (plate.machine_stiffness > 0.0)
+                plate.machine_give = dot(plate.normal, plate.force) / plate.machine_stiffness;
             const double undamped = dot(plate.normal, s.loading.of_plate(number).velocity);
             if (dt > 0.0) integrate_loaded(plate, undamped, bears_any(s, plate), dt, damping);
             continue;
         }
-        plate.boundary_work += dt * dot(0.5 * (before + plate.force), plate.velocity);
+        plate.boundary_work += work_of_step(plate, before, dt);
     }
 }
 

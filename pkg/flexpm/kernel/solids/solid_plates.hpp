@@ -5,30 +5,27 @@
 /// points into it.
 /// Deviation D20: it has the stiffness K_n of the grains' contacts times the triangle's area, and
 /// along the plate, if that is not smooth, K_s.
+/// Deviation D95: the spring of a soft machine has no mass, and a plate before one is where spring
+/// and contacts balance.
 #pragma once
 
 #include <flexpm/kernel/solids/solid_state.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 
+#include <array>
+
 namespace flexpm {
+
+/// Mean of a vector over a triangle.
+Vector middle(const Array<double>& values, const std::array<int, 3>& nodes);
+
+/// Let a plate touch a whole triangle, in its middle.
+void add_contact(const SolidState& s, Plate& plate, int triangle);
 
 /// Lay a smooth plate on the bottom or the top. Masses must be scaled again afterwards.
 /// @param bonded  it pulls as well as it presses
 /// @throws std::invalid_argument  for another side, or one without triangles or with a plate
 void add_end_plate(SolidState& s, SolidSide side, bool bonded);
-
-/// Lay plates below and on top of a disc, as bottom and top, that touch it and press alone. What
-/// they touch at first does not move along x, else the disc would roll (deviation D28), and one
-/// place of it not along y. Masses must be scaled again afterwards.
-/// @param jaw_radius  of curved jaws [m]; 0: plates are flat
-/// @throws std::invalid_argument  if there are plates, no mantle faces them, or a radius is no
-///         larger than the disc's
-void add_disc_plates(SolidState& s, double jaw_radius = 0.0);
-
-/// Make a plate that has all of its contacts, before the mantle of a disc about the y axis, a jaw:
-/// gaps and normals are those of two circles, the inner one touching each facet (deviation D95).
-/// @param disc_radius, jaw_radius  of these circles [m]
-void bend(const SolidState& s, Plate& plate, double disc_radius, double jaw_radius);
 
 /// Let grains stick to the plates from their present places on, as far as friction bears it.
 /// @param friction  coefficient [-]
@@ -81,6 +78,20 @@ void free_plate(SolidState& s, int plate);
 /// @throws std::invalid_argument  if there is no such plate, its mass is not scaled, or for a
 ///         pressure below 0
 void press(SolidState& s, int plate, double pressure);
+
+/// Lay the spring of a soft machine behind a plate [N/m]. It has the plate's present force and
+/// gives way along the plate's normal; while a load moves the plate it follows from that.
+/// @throws std::invalid_argument  if there is no such plate, the stiffness is not above 0, the
+///         plate has another spring, or it is a jaw with friction
+void set_machine(SolidState& s, int plate, double stiffness);
+
+/// Bring plates to where their springs bear what their contacts do at the end of a step that begins
+/// at the present places of the grains; crossheads are there already.
+void give_way(SolidState& s, double dt);
+
+/// What the spring of a plate becomes shorter by in a second, as grains move [m/s].
+/// @param velocity  of all nodes
+double give_rate(const SolidState& s, const Plate& plate, const Array<double>& velocity);
 
 /// Sum forces and works of all plates after the grains have moved by a step, and integrate the
 /// loaded ones.

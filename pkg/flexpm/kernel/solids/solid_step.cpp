@@ -170,6 +170,7 @@ void step(SolidState& s, const StepOptions& options)
     std::atomic<int> turned { 0 };
     for (Plate& plate : s.plates)
         plate.displacement = plate.displacement + options.dt * plate.velocity;
+    give_way(s, options.dt);
     const ThreadTeam::Work share = [&](int thread) {
         const TileRange own = share_of(s.plan, thread, team.size());
         move_shared_grains(s, own, options.dt);

@@ -172,6 +172,20 @@ std::vector<double> plate_ways(const LinearSolid& solid, const SolidDrive& drive
     return ways;
 }
 
+/// Load of driven plates along their way, by where the nodes are.
+double load_of(const LinearSolid& solid, const SolidDrive& drive, const double* u)
+{
+    double sum = 0.0;
+    for (const LinearSolid::Press& p : solid.presses) {
+        if (!is_driven(p, drive)) continue;
+        Vector way = drive.length * drive.direction;
+        for (int k = 0; k < 3; ++k)
+            way = way - p.shares[k] * triple_at(u, p.nodes[k]);
+        sum += p.stiffness * dot(p.normal, way) * dot(p.normal, drive.direction);
+    }
+    return sum;
+}
+
 /// Ways of what is held: of driven sets that of the loading. Calls give(grain, node, axis, way).
 template <class Give> void give_ways(const SolidState& s, const SolidDrive& drive, Give give)
 {
@@ -227,6 +241,7 @@ SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, const So
         field.ways.push_back(triple_at(given.data(), static_cast<int>(n))
             + triple_at(found.u.data(), static_cast<int>(n)));
     field.plates = plate_ways(solid, drive, found.u.data());
+    field.load = load_of(solid, drive, found.u.data());
     return field;
 }
 
@@ -255,7 +270,9 @@ SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, const S
         field.ways.push_back(triple_at(found.u.data(), 2 * g));
         field.turns.push_back((1.0 / rigid.radii[g]) * triple_at(found.u.data(), 2 * g + 1));
     }
-    field.plates = plate_ways(solid, drive, rigid.on_nodes(found.u.data()).data());
+    const std::vector<double> moved = rigid.on_nodes(found.u.data());
+    field.plates = plate_ways(solid, drive, moved.data());
+    field.load = load_of(solid, drive, moved.data());
     return field;
 }
 

@@ -30,7 +30,9 @@ Real Gauge::moved(const flexpm::Assembly& assembly) const
 
 Real Gauge::moved(const flexpm::SolidState& solid) const
 {
-	return plate >= 0 ? flexpm::plate_way(solid, plate, { direction[0], direction[1], direction[2] }) : wayInSpace(solid.grains.displacement);
+	const flexpm::Vector along = { direction[0], direction[1], direction[2] };
+	if (reads == "crosshead") return flexpm::crosshead_way(solid, plate, along);
+	return plate >= 0 ? flexpm::plate_way(solid, plate, along) : wayInSpace(solid.grains.displacement);
 }
 
 Real Gauge::wayInSpace(const flexpm::Array<double>& moved) const
@@ -41,8 +43,10 @@ Real Gauge::wayInSpace(const flexpm::Array<double>& moved) const
 
 Real Gauge::rate(const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const
 {
+	const flexpm::Vector along = { direction[0], direction[1], direction[2] };
 	if (isState()) return 0;
-	return perLength(plate >= 0 ? flexpm::plate_rate(solid, plate, { direction[0], direction[1], direction[2] }) : wayInSpace(velocity));
+	if (reads == "crosshead") return flexpm::crosshead_rate(solid, plate, along);
+	return perLength(plate >= 0 ? flexpm::plate_rate(solid, plate, along, velocity) : wayInSpace(velocity));
 }
 
 void Gauge::setZero(const flexpm::SolidState& solid)
@@ -50,7 +54,11 @@ void Gauge::setZero(const flexpm::SolidState& solid)
 	if (!isState()) zero = moved(solid);
 }
 
-Real Gauge::reading(const flexpm::SolidState& solid) const { return isState() ? flexpm::contact_angle(solid, plate) : perLength(moved(solid) - zero); }
+Real Gauge::reading(const flexpm::SolidState& solid) const
+{
+	if (!isState()) return perLength(moved(solid) - zero);
+	return reads == "machine_energy" ? flexpm::machine_energy(solid, plate) : flexpm::contact_angle(solid, plate);
+}
 
 bool Gauge::isState() const { return reads == "machine_energy" || reads == "contact_angle" || reads == "angle"; }
 

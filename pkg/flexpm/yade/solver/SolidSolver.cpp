@@ -145,6 +145,8 @@ int SolidSolver::findJaw(Vector3r towards, Real ratio, Real angle, Real friction
 
 void SolidSolver::freePlate(int plate) { flexpm::free_plate(state, plate); }
 
+void SolidSolver::setMachine(int plate, Real stiffness) { flexpm::set_machine(state, plate, stiffness); }
+
 py::tuple SolidSolver::gaugePoints(Vector3r first, Vector3r second)
 {
 	const auto gauge = flexpm::gauge_points(state, { first[0], first[1], first[2] }, { second[0], second[1], second[2] });
@@ -177,6 +179,8 @@ py::list SolidSolver::plates()
 		d["pressed_area"]  = flexpm::pressed_area(p);
 		d["strip"]         = p.strip;
 		d["radius"]        = p.jaw_radius;
+		d["machine"]       = p.machine_stiffness;
+		d["machine_give"]  = p.machine_give;
 		d["contact_angle"] = flexpm::contact_angle(state, static_cast<int>(i));
 		all.append(d);
 	}

@@ -33,6 +33,7 @@ public:
 	int  layJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip);
 	int  findJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip);
 	void freePlate(int plate);
+	void setMachine(int plate, Real stiffness);
 	py::tuple gaugePoints(Vector3r first, Vector3r second);
 	py::list  plates();
 	py::tuple nodePlaces(bool bonded);
@@ -78,6 +79,7 @@ public:
 			"Lay a curved jaw against the mantle of a disc about the y axis, in a direction from that axis, before an angle of it [rad]. ratio: of its radius over the disc's, at least 1; friction: coefficient [-]; strip: as of layPatch. Returns its number. Scale the masses afterwards.")
 		.def("findJaw", WithGrains<&SolidSolver::findJaw>::call, (py::arg("towards"), py::arg("ratio"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.), "Number of the plate that layJaw has laid so; -1 without one.")
 		.def("freePlate", WithGrains<&SolidSolver::freePlate>::call, (py::arg("plate")), "Let a load move a plate along its normal, for :yref:`PressureController`; it stands until then. Scale the masses afterwards.")
+		.def("setMachine", WithGrains<&SolidSolver::setMachine>::call, (py::arg("plate"), py::arg("stiffness")), "Lay the spring of a soft machine [N/m] behind a plate, along its normal. What drives the plate then drives its crosshead; a jaw must be smooth.")
 		.def("gaugePoints", WithGrains<&SolidSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
 			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
 		.def("elasticConstants", WithGrains<&SolidSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio of the unloaded grains between smooth ends, by their linear solution; they stay as they are.")

@@ -19,10 +19,10 @@ from ..layout import before
 from ..outcome.calls import recording
 from ..outcome.kept import Leaves
 from ..part_rig import PartRig
-from ..parts import HeldNodes, RigPart
+from ..parts import HeldNodes
 from ..places import SPACE, Place, Vector, require_direction
 from ..statics.solid_state import SolidPartStatics
-from .part_layout import SolidPartLayout, refuse
+from .part_layout import SolidPartLayout
 from .patches import sides_under
 
 
@@ -105,11 +105,6 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         return {**super().drives, "turns": self._frame.turns}
 
     @property
-    def machine(self) -> float:
-        """0: no machine behind what loads a solid gives way [N/m]."""
-        return 0.0
-
-    @property
     def may_fail_at_once(self) -> bool:
         """A test of one's own may have few contacts across."""
         return self.kind == OWN.name
@@ -162,11 +157,6 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         """Whether plates bear the load, whose growth is that of their contacts."""
         frame = self._frame
         return not frame.drivenSets or (bool(frame.holding) and not frame.holdingSets)
-
-    def _soften(
-        self, moved: Sequence[RigPart], unit: tuple[float, float, float], soft: float | None
-    ) -> None:
-        refuse("drive", machine=soft)
 
     def _load_by(self, call: str, **asked: object) -> None:
         super()._load_by(call, **asked, turns=call == "turn")

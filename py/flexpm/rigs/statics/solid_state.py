@@ -97,13 +97,15 @@ class SolidPartStatics(PartStatics):
             if any(pressed.values()):
                 found = frame.pressedState(list(pressed), list(pressed.values()))
                 sum_of.add(found, 1.0 / found["way"])
-            if moves:
+            # pressures alone leave the plate, whose machine's crosshead goes back
+            behind = sum_of.load / self.machine if self.machine else 0.0
+            if moves or behind:
                 found = frame.elasticState(list(pressed))
                 if asked is not None and not found["load"]:
                     raise ValueError(f"load = {asked:g}, must be left out: nothing resists")
                 missing = 0.0 if asked is None else asked - sum_of.load
-                factor = way / found["way"] if asked is None else missing / found["load"]
-                way = factor * found["way"]
+                factor = (way - behind) / found["way"] if asked is None else missing / found["load"]
+                way = behind + factor * found["way"]
                 sum_of.add(found, factor)
         except (ValueError, RuntimeError) as error:
             raise InputError(f"elastic: {error}") from None
