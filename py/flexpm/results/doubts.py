@@ -237,19 +237,17 @@ def of_motion(kinetic_shares: Mapping[str, float], parting: float | None) -> lis
     return lines
 
 
-def of_regained(first: float | None, peak: float | None) -> list[str]:
-    """What a strength says that rubble bears: the specimen had been broken at a smaller stress.
+def of_regained(first: float, largest: float) -> str:
+    """What to say of a compression whose largest stress comes after a peak that was left.
 
     Args:
         first: First peak that has been left and regained [Pa], see ``measures.regained_peak``.
-        peak: Strength of the result [Pa].
+        largest: Largest stress [Pa].
     """
-    if first is None or peak is None:
-        return []
-    return [
-        f"peak_stress = {1e-6 * peak:.4g} MPa, is above a first peak of {1e-6 * first:.4g} MPa "
-        "that was left by 10 %: broken grains that lock bear it; --stop-ratio 0.9 ends there"
-    ]
+    return (
+        f"largest stress = {1e-6 * largest:.4g} MPa, is above a first peak of {1e-6 * first:.4g} "
+        "MPa that was left by 10 %: broken grains that lock bear it; --stop-ratio 0.9 ends there"
+    )
 
 
 def of_growth(growth: float | None) -> list[str]:

@@ -146,8 +146,8 @@ class Result(Shown):
         found += doubts.of_result(self.status, self.energy_error, mismatch, rate)
         if self.rates:
             found += doubts.of_rates(self.rates, self.status)
-        if kind_of(self.test).needs_peak and not kind_of(self.test).regains:
-            found += doubts.of_regained(measures.regained_peak(self.curve), self.peak_stress)
+        if kind_of(self.test).is_core and (first := measures.regained_peak(self.curve)):
+            found.append(doubts.of_regained(first, float(np.max(self.curve["axial_stress"]))))
         if kind_of(self.test).quasi_static:
             found += doubts.of_motion(measures.kinetic_shares(self.curve), self.largest_parting)
         told = given.get("doubts", ())  # by a script's rig

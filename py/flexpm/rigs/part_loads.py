@@ -172,6 +172,13 @@ class PartLoads(PartLayout):
         self, moved: Sequence[RigPart], unit: tuple[float, float, float], soft: float | None
     ) -> None:
         """Lay the machine's spring behind the part that loads, or find it there again."""
+        plates = self.built.solver.plates()
+        behind = [n for n, one in enumerate(plates) if one["machine"]]
+        if set(behind) - set(numbers(moved, Part)):
+            raise InputError(
+                "drive: machine = behind a plate that does not load, must be behind what loads; "
+                "make a new rig"
+            )
         there = self.machine
         lays = there == 0.0 and soft is not None and not self._begun
         if not lays and there != (soft or 0.0):
@@ -180,12 +187,12 @@ class PartLoads(PartLayout):
             )
         if soft is None:
             return
-        self._watch_machine(moved[0].number, unit)
         try:
             if lays:
                 self.built.solver.setMachine(moved[0].number, soft)
         except ValueError as error:
             raise InputError(f"drive: {error}") from None
+        self._watch_machine(moved[0].number, unit)
 
     @abstractmethod
     def _watch_machine(self, plate: int, unit: tuple[float, float, float]) -> None:

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/solid_tests/solid_drive.hpp>
 #include <flexpm/kernel/solid_tests/solid_gauge.hpp>
+#include <flexpm/kernel/solid_tests/solid_jaws.hpp>
 #include <flexpm/kernel/solid_tests/solid_parts.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 
@@ -106,6 +107,38 @@ TEST_CASE("Grains begin to move as those before a plate that gives way", "[solid
     }
 }
 
+TEST_CASE("A smooth jaw in a soft machine is where its spring and its contacts balance", "[solids]")
+{
+    SolidState s = make_solid(disc().cells, disc().solid, granite());
+    const Vector up { 0.0, 0.0, 1.0 };
+    add_jaw_plate(s, { down, 1.5, 1.0, 0.3 });
+    const int top = add_jaw_plate(s, { up, 1.5, 1.0 });
+    scale_masses(s, damping, dt);
+    const PartGeometry parts { { top }, { 0 }, down, a * a, a };
+    const double machine = 0.5 * solid_part_scales(s, parts, 1e6, dt).modulus * parts.area / a;
+    set_machine(s, top, machine);
+    const SolidDrive drive = drive_of(parts);
+    // a start in mid-way has the energy of its forces, and no work of the boundary
+    start(s, drive, elastic_field(s, drive), 1e-5 * a, 0.0, true, dt);
+    CHECK(energies(s).boundary_work == 0.0);
+    const double before = crosshead_way(s, top, down);
+    CHECK(before == Approx(1e-5 * a).epsilon(1e-9));
+    go_on(s, drive, 1e-6 * a, dt);
+    for (int k = 0; k < 1000; ++k) {
+        step(s, { dt, damping, 1, true });
+        const Plate& plate = s.plates[top];
+        REQUIRE(machine * plate.machine_give
+            == Approx(dot(plate.force, plate.normal)).epsilon(1e-9).margin(1e-12));
+    }
+    CHECK(crosshead_way(s, top, down) - before == Approx(1e-3 * a).epsilon(1e-9));
+    CHECK(s.plates[top].machine_give > 0.1 * 1e-3 * a);
+    const Energies e = energies(s);
+    CHECK(std::fabs(e.kinetic + e.elastic + e.damage + e.friction + e.damping + e.drag
+              - e.boundary_work - e.initial)
+        < 1e-3 * e.elastic);
+    CHECK_THROWS_WITH(set_machine(s, 0, machine), Catch::Contains("must be 0 in space"));
+}
+
 TEST_CASE("A crosshead of space that goes back takes the plate off", "[solids]")
 {
     Pressed test(box(40, 3), false, false);
@@ -126,4 +159,7 @@ TEST_CASE("What is no soft machine is refused", "[solids]")
         set_machine(test.s, 1, 0.0), Catch::Contains("stiffness of a machine = 0 N/m"));
     set_machine(test.s, 1, 1e6);
     CHECK_THROWS_WITH(set_machine(test.s, 1, 1e6), Catch::Contains("must be given once"));
+    const SolidDrive both { { 0, 1 }, down };
+    CHECK_THROWS_WITH(start(test.s, both, elastic_field(test.s, both), 0.0, 1e-9, true, dt),
+        Catch::Contains("driven plates with a soft machine = 2, must be 1"));
 }

@@ -95,26 +95,30 @@ def test_static_solutions_are_in_series_with_the_machine(model):
     assert rig.elastic(load=state.load).way == pytest.approx(1e-8, rel=1e-6)
 
 
-def test_a_crosshead_stays_where_it_is_as_a_part_is_pressed():
-    """A block on its base under a pressed lid; the part that a machine holds is on its right."""
+@pytest.mark.parametrize("counted", [True, False])
+def test_a_crosshead_stays_where_it_is_as_a_part_is_pressed(counted):
+    """A block on its base under a pressed lid; the part that a machine holds is on its right.
+
+    Whether the load is the mean of both sides' or not, the spring bears what its own part does.
+    """
     box = flexpm.Specimen.box(0.012, 0.012, 0.012, seed=1)
 
     def held(machine: float | None):
         yade.O.reset()
         rig = flexpm.SolidPartRig(flexpm.build(box, "augig-table7"))
         base, lid, wall, jack = (rig.platen(side) for side in (0, 2, 3, 1))
-        rig.drive(jack, (-1, 0, 0), against=wall, machine=machine)
+        rig.drive(jack, (-1, 0, 0), against=wall if counted else base, machine=machine)
         return rig, lid, jack
 
     rig, lid, jack = held(None)
-    stiff, way = rig.elastic({lid: 1e6}), rig.elastic({lid: 0.0}, way=1e-8)
-    machine = way.load / 1e-8
+    push = rig.elastic({lid: 1e6}).force(jack)[0]
+    machine = -rig.elastic({lid: 0.0}, way=1e-8).force(jack)[0] / 1e-8
     rig, lid, jack = held(machine)
     soft = rig.elastic({lid: 1e6})
     # half of what the wall without a spring would bear
-    assert soft.load == pytest.approx(0.5 * stiff.load, rel=1e-4)
+    assert soft.force(jack)[0] == pytest.approx(0.5 * push, rel=1e-4)
     assert soft.way == pytest.approx(0.0, abs=1e-15)
-    assert soft.displacement(jack)[0] == pytest.approx(soft.load / machine, rel=1e-4)
+    assert soft.displacement(jack)[0] == pytest.approx(-soft.force(jack)[0] / machine, rel=1e-4)
 
 
 def test_a_machine_is_given_once_and_to_one_plate_along_its_normal():
@@ -132,7 +136,34 @@ def test_a_machine_is_given_once_and_to_one_plate_along_its_normal():
     with pytest.raises(InputError, match="must be as given before, 1000000"):
         rig.drive(top, up, machine=2e6)
     assert rig.laid["drive"]["machine"] == 1e6
+    assert [one.get("machine") for one in rig.parts] == [None, 1e6]
+    with pytest.raises(InputError, match="machine = behind a plate that does not load"):
+        rig.drive(rig.platen(1), (-1, 0, 0))
     assert [one["gauge"] for one in rig.gauges] == ["crosshead", "machine_energy"]
+
+
+def test_a_pressed_plate_is_taken_over_by_its_machine():
+    """Its force goes on from there, and its crosshead, which begins to count, does not jump."""
+    yade.O.reset()
+    box = flexpm.Specimen.box(0.012, 0.012, 0.018, seed=1)
+    rig = flexpm.SolidPartRig(flexpm.build(box, "augig-table7"))
+    base, top = rig.platen(0), rig.platen(2)
+    rig.press(top, 5e6)
+    stiff = flexpm.elastic(box, "augig-table7")["youngs_modulus"] * top.area / 0.018
+    rig.drive(top, (0, 0, -1), against=base, area=top.area, length=0.018, machine=stiff)
+    rig.strain_to(5e-4)
+    record = rig.record
+    grown = record["load"][-1] - 5e6 * top.area
+    assert record["load"][0] == pytest.approx(5e6 * top.area, rel=0.02)
+    behind = (record["crosshead"] - record["displacement"])[[0, -1]]
+    assert behind[1] == pytest.approx(grown / stiff, rel=0.01)
+    assert abs(behind[0]) < 0.03 * behind[1]
+    assert record["machine_energy"][-1] == pytest.approx(
+        0.5 * record["load"][-1] ** 2 / stiff, rel=0.01
+    )
+    names = ("kinetic", "elastic", "damage", "friction", "damping", "drag")
+    stored = sum(record[f"{name}_energy"][-1] for name in names) - rig.initial_energy
+    assert stored == pytest.approx(record["boundary_work"][-1], rel=1e-4)
 
 
 def test_a_soft_machine_in_a_folder_is_made_again_to_the_same_bytes(tmp_path, monkeypatch):

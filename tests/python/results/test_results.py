@@ -294,8 +294,9 @@ def test_a_strength_that_broken_grains_bear_is_doubtful(valley, last):
     result.measure(QUASISTATIC)
     told = [line for line in result.warnings if "broken grains" in line]
     assert len(told) == 1 and "first peak of 10 MPa" in told[0]
-    assert told[0].startswith(f"peak_stress = {1e-6 * peak:.4g} MPa")
+    assert told[0].startswith(f"largest stress = {1e-6 * peak:.4g} MPa")
     for test, record in [
+        ("bending", rows),  # its head may slip
         ("triaxial", [*rows[:-2], 0.99 * 10e6]),  # the first peak is the largest stress
         ("triaxial", [*rows[:40], 0.95 * 10e6, *rows[-2:]]),  # no fall
         ("brazilian", rows),

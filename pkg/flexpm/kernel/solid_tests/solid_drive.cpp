@@ -32,11 +32,18 @@ void set_velocity(SolidState& s, const SolidDrive& drive, double velocity, doubl
 
 /// Part of the way of its crosshead that a driven plate goes, by a linear solution [-]: 1 without a
 /// soft machine.
+/// @throws std::invalid_argument  if one of several driven plates has a soft machine
 double way_of_plate(const SolidState& s, const SolidDrive& drive, const SolidField& field)
 {
-    if (drive.plates.empty()) return 1.0;
-    const double machine = s.plates[drive.plates.front()].machine_stiffness;
-    return machine > 0.0 ? machine / (machine + field.load / drive.length) : 1.0;
+    for (int plate : drive.plates) {
+        const double machine = s.plates[plate].machine_stiffness;
+        if (!(machine > 0.0)) continue;
+        if (drive.plates.size() > 1)
+            refuse("driven plates with a soft machine", static_cast<double>(drive.plates.size()),
+                "", "must be 1");
+        return machine / (machine + field.load / drive.length);
+    }
+    return 1.0;
 }
 
 /// Let damping act on all motion.
@@ -100,7 +107,8 @@ void start(SolidState& s, const SolidDrive& drive, const SolidField& field, doub
     for (int number : drive.plates) {
         Plate& plate = s.plates[number];
         plate.displacement = of_way * way;
-        plate.machine_give = dot(plate.normal, way - plate.displacement);
+        if (plate.machine_stiffness > 0.0)
+            plate.machine_give = dot(plate.normal, way - plate.displacement);
     }
     drive.for_each_set([&](int set, double sense) {
         NodeSet& moved = s.node_sets[set];

@@ -15,8 +15,8 @@ SolidDrive drive_of_top(const SolidState& s);
 /// velocity, by which all grains move as that solution does (deviation D30). Kinetic and elastic
 /// energy of this start are the initial ones of the balance.
 ///
-/// @param part      of the field [-]
-/// @param velocity  of what loads [m/s]
+/// @param part      of the field [-], of a crosshead if there is a soft machine
+/// @param velocity  of what loads, or of its crosshead [m/s]
 /// @param undamped  damping acts only on what grains move beyond that
 /// @param dt        time step [s]
 /// @throws std::invalid_argument  as begin_from(), or unless the velocity is finite

@@ -26,7 +26,7 @@ double opening_in_space(const Array<double>& moved, const GaugePoints& gauge, Ve
 /// @throws std::invalid_argument  if there is no such plate
 double plate_way(const SolidState& s, int plate, Vector direction);
 
-/// The same of the crosshead behind it, which is where the plate is without a machine [m].
+/// Way of the crosshead behind it; without a machine that of the plate [m].
 double crosshead_way(const SolidState& s, int plate, Vector direction);
 
 /// What these grow by in a unit of time with the motion that the loading gives [m/s].

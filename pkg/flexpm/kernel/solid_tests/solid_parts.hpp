@@ -40,9 +40,11 @@ SolidDrive drive_of(const PartGeometry& parts);
 /// Where its elastic solution takes a specimen, whose plates hold what touches them.
 struct SolidPartState {
     SolidState state;        ///< with the forces of all parts; what loads goes 1 m or rad in 1 s
-    double way = 0.0;        ///< of what is driven, so small that all is linear [m, or rad]
+    double way = 0.0;        ///< of what is driven, so small that all is linear [m, or rad]; of the
+                             ///< crosshead of a soft machine
     double load = 0.0;       ///< of the driven parts [N, or N m]
-    double softening = 0.0;  ///< way at which the first point of the unloaded specimen softens
+    double softening = 0.0;  ///< way of the part itself at which the first point of the unloaded
+                             ///< specimen softens
 };
 
 /// @throws std::invalid_argument  as solid_part_frame()
@@ -71,7 +73,8 @@ double part_load_rate(
     const SolidState& s, const PartGeometry& parts, const Array<double>& velocity);
 
 /// Its scales, from the elastic solution, as part_scales() has them; `width` is the root of the
-/// area.
+/// area. The way is that of plates themselves, also in a soft machine. Contacts that pull in that
+/// solution bear nothing: with the rock's own stiffnesses a thousandth of the load or less.
 /// @param strength  stress that the test may reach, roughly [Pa]; 0: twice that at which the first
 ///                  point of the unloaded specimen softens
 /// @throws std::runtime_error  if the forces do not come to balance

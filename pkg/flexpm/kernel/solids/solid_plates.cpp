@@ -172,24 +172,29 @@ std::vector<SoftContact> contacts_after(const SolidState& s, const Plate& plate,
     return contacts;
 }
 
-/// The give at which spring and contacts balance. What is missing to that is a concave function of
-/// it, in straight pieces, as ever fewer contacts bear: Newton's method goes up to its root from
-/// the first step on, and ends on the root's piece.
+/// The give at which spring and contacts balance: what the spring becomes shorter by. The force
+/// that is missing to balance is a concave function of it, in straight pieces, as ever fewer
+/// contacts bear: Newton's method goes up to the root from the first step on, and a step within a
+/// piece ends there.
 double balanced_give(const Plate& plate, const std::vector<SoftContact>& contacts)
 {
     double give = 0.0;
+    int bore = -1;
+    // the bound counts where a contact that bears nothing comes and goes by round-off
     for (std::size_t look = 0; look < contacts.size() + 2; ++look) {
         double missing = plate.machine_stiffness * (plate.machine_give + give);
         double stiffness = plate.machine_stiffness;
+        int bearing = 0;
         for (const SoftContact& c : contacts) {
             const double gap = c.gap + give * c.opens;
             if (!(plate.bonded || gap < 0.0)) continue;
             missing += c.stiffness * gap * c.opens;
             stiffness += c.stiffness * c.opens * c.opens;
+            ++bearing;
         }
-        const double change = -missing / stiffness;
-        if (give + change == give) break;
-        give += change;
+        give -= missing / stiffness;
+        if (bearing == bore) break;
+        bore = bearing;
     }
     return give;
 }
@@ -428,7 +433,7 @@ void sum_plates(SolidState& s, double dt, double damping)
             if (dt > 0.0) integrate_loaded(plate, undamped, bears_any(s, plate), dt, damping);
             continue;
         }
-        plate.boundary_work += work_of_step(plate, before, dt);
+        if (dt > 0.0) plate.boundary_work += work_of_step(plate, before, dt);
     }
 }
 

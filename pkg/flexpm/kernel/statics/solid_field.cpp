@@ -241,7 +241,7 @@ SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, const So
         field.ways.push_back(triple_at(given.data(), static_cast<int>(n))
             + triple_at(found.u.data(), static_cast<int>(n)));
     field.plates = plate_ways(solid, drive, found.u.data());
-    field.load = load_of(solid, drive, found.u.data());
+    field.load = load_of(solid, drive, found.u.data());  // no given node lies before a plate
     return field;
 }
 

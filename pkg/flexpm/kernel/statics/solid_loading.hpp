@@ -32,7 +32,7 @@ struct SolidField {
     /// Ways of the plates that a load moves, along their normals, by number; 0 of others and beyond
     /// the last of them [m].
     std::vector<double> plates = {};
-    double load = 0.0;  ///< of driven plates along their way [N]
+    double load = 0.0;  ///< of driven plates along the way for which the field is [N]
 
     double plate_way(std::size_t plate) const
     {

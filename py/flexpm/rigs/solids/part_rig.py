@@ -122,7 +122,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
                 "part": "plate",
                 **{name: one[name] for name in names},
                 "place": before(one),
-                **{name: one[name] for name in ("strip", "radius") if one[name]},
+                **{name: one[name] for name in ("strip", "radius", "machine") if one[name]},
                 "face": self._traces.get(number, []),
             }
             for number, one in enumerate(self._solid.plates())

@@ -33,7 +33,7 @@ class SolidElasticState(SolidSnapshot):
     with friction hold it (deviation D101).
     """
 
-    way: float = 0.0  #: of the driven parts along the loading [m, or rad]
+    way: float = 0.0  #: of the driven parts, or a crosshead, along the loading [m, or rad]
     load: float = 0.0  #: of the driven parts on the specimen, along the loading [N, or N m]
     rig: object = field(default=None, repr=False)  #: whose parts have the forces
     plates: tuple[tuple[float, ...], ...] = ()  #: force and displacement of each
@@ -74,7 +74,8 @@ class SolidPartStatics(PartStatics):
 
         Args:
             pressures: On parts [Pa]: they are free to move along their normals.
-            way: How far the driven parts go along the loading [m], or turn [rad].
+            way: How far the driven parts, or a machine's crosshead, go along the loading [m], or
+                turn [rad].
             load: Sum of what they push [N], or of their moments [N m], in place of a way.
 
         Raises:
@@ -97,8 +98,11 @@ class SolidPartStatics(PartStatics):
             if any(pressed.values()):
                 found = frame.pressedState(list(pressed), list(pressed.values()))
                 sum_of.add(found, 1.0 / found["way"])
-            # pressures alone leave the plate, whose machine's crosshead goes back
-            behind = sum_of.load / self.machine if self.machine else 0.0
+            # pressures alone leave the plate, so the crosshead of its machine has moved
+            behind = 0.0
+            if self.machine:
+                push = np.dot(sum_of.plates[frame.driven[0]][:3], np.array(frame.direction))
+                behind = float(push) / self.machine
             if moves or behind:
                 found = frame.elasticState(list(pressed))
                 if asked is not None and not found["load"]:
