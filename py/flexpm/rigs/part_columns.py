@@ -89,7 +89,10 @@ class PartColumns(PartLayout):
         self._add_gauge(name, wrapper.Gauge(plate=jaw.number, reads="contact_angle"))
 
     def angle_of(self, name: str, part: Part) -> None:
-        """Record the angle of a seated part, see `Part.angle` [rad], in a column of this name."""
+        """Record the angle of a seated part, see `Part.angle` [rad], in a column of this name.
+
+        In space that is its size.
+        """
         label = f"gauge {self._gauge_name(name)}"
         part = require_part(f"{label}: part", self, part, Part)
         if not self.built.solver.plates()[part.number]["seated"]:

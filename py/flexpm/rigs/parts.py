@@ -55,6 +55,13 @@ class RigPart:
         found: Table = getattr(self.solver, self._list)()[self.number]
         return found
 
+    @property
+    def _is_in_space(self) -> bool:
+        return len(self._now["place"]) == len(SPACE)
+
+    def _turn(self, name: str) -> float | tuple[float, ...]:
+        return self._vector(name) if self._is_in_space else self._number(name)
+
     def _vector(self, name: str) -> tuple[float, ...]:
         return tuple(float(one) for one in self._now[name])
 
@@ -97,9 +104,9 @@ class Part(RigPart):
         return self._number("contact_angle")
 
     @property
-    def angle(self) -> float:
-        """Turn of a seated one, counter-clockwise, 0 when square to its normal [rad]."""
-        return self._number("angle")
+    def angle(self) -> float | tuple[float, ...]:
+        """Turn of a seated one, 0 when square to its normal [rad]: see `HeldNodes`."""
+        return self._turn("angle")
 
     @property
     def machine_energy(self) -> float:
@@ -136,13 +143,6 @@ class HeldNodes(RigPart):
     def axes(self) -> str:
         """Along which they are held: ``x``, ``y``, ``z`` or several, as ``xy``."""
         return str(self._now["axes"])
-
-    @property
-    def _is_in_space(self) -> bool:
-        return len(self._now["place"]) == len(SPACE)
-
-    def _turn(self, name: str) -> float | tuple[float, ...]:
-        return self._vector(name) if self._is_in_space else self._number(name)
 
     def move(self, velocity: Place | None = None, spin: float | Place = 0.0) -> None:
         """Move them from the next step on, whatever the rig's loading does.

@@ -412,6 +412,7 @@ class SolidSolver(GrainSolver):
         friction: float = ...,
         bonded: bool = ...,
         strip: float = ...,
+        seated: bool = ...,
     ) -> int: ...
     def findPatch(
         self,
@@ -421,6 +422,7 @@ class SolidSolver(GrainSolver):
         friction: float = ...,
         bonded: bool = ...,
         strip: float = ...,
+        seated: bool = ...,
     ) -> int: ...
     def layJaw(
         self,

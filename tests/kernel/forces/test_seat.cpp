@@ -99,7 +99,7 @@ TEST_CASE("A seated plate turns until its springs have no moment about the seat"
     const auto [k, turn] = of_springs(row.top());
     CHECK(k < 1.5 * stiffness * columns * size * specimens::thickness);
     CHECK(row.top().force.y == Approx(k * way).epsilon(1e-9));
-    CHECK(row.top().angle == Approx(-turn * dot(row.top().normal, Vector { 0.0, way })));
+    CHECK(row.top().turn.z == Approx(-turn * dot(row.top().normal, Vector { 0.0, way })));
     CHECK(std::fabs(row.moment()) < 1e-9 * k * std::fabs(way) * size);
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("A seated plate lies down on a face that is not parallel to it", "[pla
         p.gap[i] += tilt * p.arms[i] + off;
     row.go(-1e-7 - off);
     const double whole = stiffness * columns * size * specimens::thickness / 3.0;
-    CHECK(row.top().angle == Approx(tilt).epsilon(1e-6));
+    CHECK(row.top().turn.z == Approx(tilt).epsilon(1e-6));
     CHECK(row.top().force.y == Approx(-whole * 1e-7).epsilon(1e-6));
     for (int i = 1; i < plate_points(row.top()); ++i) {
         CHECK(point_force(row.top(), i).y == Approx(point_force(row.top(), 0).y).epsilon(1e-5));
@@ -143,7 +143,7 @@ TEST_CASE("A seated plate with a point on one side of its seat turns away from i
         p.gap[i] += tilt * p.arms[i] > 0.0 ? 1e-5 : 0.0;
     row.go(-1e-7, 50);
     CHECK(std::fabs(row.top().force.y) < 1e-12 * stiffness);
-    CHECK(row.top().angle * tilt > 0.0);
+    CHECK(row.top().turn.z * tilt > 0.0);
 }
 
 TEST_CASE("A seated plate is laid down on what is before it", "[plate]")
@@ -157,7 +157,7 @@ TEST_CASE("A seated plate is laid down on what is before it", "[plate]")
     const Patch patch { { 0.5 * columns * size, size * (1.0 + 0.5 * columns * slope) },
         columns * size, { 0.0, -1.0 } };
     const Plate& p = a.plates[add_patch_plate(a, patch, { 0.0, 0.0, false, 0.0, true })];
-    CHECK(p.angle == Approx(slope).margin(1e-12));
+    CHECK(p.turn.z == Approx(slope).margin(1e-12));
     for (double opening : p.opening)
         CHECK(std::fabs(opening) < 1e-12 * size);
 }
@@ -167,7 +167,7 @@ TEST_CASE("A plate without a seat does not turn", "[plate]")
     Row row(true);
     row.a.plates[row.plate].seated = false;
     row.go(-1e-7, 50);
-    CHECK(row.top().angle == 0.0);
+    CHECK(row.top().turn.z == 0.0);
     CHECK(std::fabs(row.moment()) > 0.1 * std::fabs(row.top().force.y) * size);
 }
 
@@ -188,9 +188,9 @@ TEST_CASE("Static solutions let a seat turn as the steps do", "[plate]")
     const ElasticState state = find_elastic_state(row.a, asked);
     row.go(-1e-7);
     const double largest = std::fabs(row.top().force.y);
-    CHECK(row.top().angle != 0.0);
+    CHECK(row.top().turn.z != 0.0);
     CHECK(state.load == Approx(largest).epsilon(1e-4));
-    CHECK(state.state.plates[row.plate].angle == Approx(row.top().angle).epsilon(1e-3));
+    CHECK(state.state.plates[row.plate].turn.z == Approx(row.top().turn.z).epsilon(1e-3));
     const int centre = row.a.grains.centre(2 * columns - 1);
     const double way = row.a.grains.displacement_at(centre).y;
     CHECK(vector_at(found.displacement, centre).y == Approx(way).epsilon(1e-3));
@@ -207,7 +207,7 @@ TEST_CASE("A plate that is pressed and turns bears its load", "[plate]")
     press(row.a, row.plate, 1e6);
     row.run(6000);
     CHECK(row.top().force.y == Approx(-row.top().load).epsilon(1e-6));
-    CHECK(row.top().angle == Approx(tilt).epsilon(1e-3));
+    CHECK(row.top().turn.z == Approx(tilt).epsilon(1e-3));
     CHECK(std::fabs(row.moment()) < 1e-6 * row.top().load * size);
 }
 

@@ -24,11 +24,12 @@ import flexpm
 box = flexpm.Specimen.box(0.012, 0.012, 0.012, seed=1)
 
 rig = flexpm.SolidPartRig(flexpm.build(box, model="rigid"), out="out", checkpoint_interval=INTERVAL)
-floor, top = rig.platen(0, friction=0.5), rig.platen(2, friction=0.5)
+floor, top = rig.platen(0, friction=0.5), rig.platen(2, friction=0.5, seated=True)
 left, right = rig.platen(3), rig.platen(1)
 pin = rig.hold(ball=((0.006, 0.006, 0.006), 0.002), axes="y")
 rig.press({left: 1e6, right: 1e6, top: 2e6})
 rig.gauge("wide", (0.0, 0.006, 0.006), (0.012, 0.006, 0.006))
+rig.angle_of("tilt", top)
 rig.drive(top, (0.0, 0.0, -1.0), against=floor)
 rig.stress_to(350.0)
 rig.cycle(400.0, 1, low=350.0)
@@ -176,7 +177,9 @@ def test_what_is_wrong_is_refused(box):
     base, top = rig.platen(0), rig.platen(2)
     refused = [
         (lambda: rig.platen(6), "side = 6, must be one of 0, 1, 2, 3, 4, 5"),
-        (lambda: rig.platen(1, seated=True), "seated = True, must be left out for a solid"),
+        (lambda: rig.platen(1, seated=1), "seated = 1, must be"),
+        (lambda: rig.support((0.006, 0.006, 0.0), seated=True), "length = None, must be given"),
+        (lambda: rig.angle_of("tilt", top), "must be seated"),
         (lambda: rig.platen(1, bonded=True, friction=0.2), "must be 0 of one that is bonded"),
         (lambda: rig.support((0.0, 0.0)), "place = \\(0.0, 0.0\\), must be x, y and z"),
         (lambda: rig.support((0.006, 0.006, 0.006), 0.003), "off the nearest flat side"),
@@ -189,8 +192,6 @@ def test_what_is_wrong_is_refused(box):
         (lambda: rig.drive(top, (0, -1)), "must be x, y and z"),
         (lambda: rig.drive(top, (0, 0, 1), against=base) or rig.load(), "pulls without bond"),
         (lambda: top.width, "width of platen at .* has none in space"),
-        (lambda: top.angle, "angle of platen at .* has none in space"),
-        (lambda: rig.angle_of("turn", top), "angle_of: specimen = a solid, must be plane"),
         (lambda: rig.platen(2), "lies there already, must be apart"),
         (lambda: rig.support((0.006, 0.006, 0.0), 0.003), "lies there already, must be apart"),
         (lambda: rig.support((0.006, 0.006, 0.0)), "lies there already, must be apart"),

@@ -37,7 +37,8 @@ struct Plate {
     std::vector<double> normals;  ///< of a jaw, [facet][point][axis]
     bool seated = false;          ///< turns freely about its seat
     std::vector<double> arms;     ///< of a seated one, [facet][point]: what the plate's face goes
-                                  ///< along its normal there as it turns by 1 rad [m]
+                                  ///< along its normal there as it turns by 1 rad [m]; in space
+                                  ///< [facet][axis], by each component of a turn
 
     // what drives it
     bool loaded = false;  ///< moves along its normal under `load`; else `velocity` is prescribed
@@ -51,7 +52,8 @@ struct Plate {
     // state
     Vector displacement;          ///< [m]
     double machine_give = 0.0;    ///< what that spring is shorter by [m]
-    double angle = 0.0;           ///< from square to its normal, counter-clockwise [rad]
+    Vector turn;                  ///< of a seated one from square to its normal; in the plane
+                                  ///< about z, counter-clockwise [rad]
     std::vector<int> facets;      ///< of the boundary, which may touch it
     std::vector<double> gap;      ///< [facet][point] at the reference [m]
     std::vector<double> area;     ///< [facet][point] [m^2]
@@ -105,7 +107,9 @@ struct Plate {
         visit("displacement_y", s.displacement.y);
         visit("displacement_z", s.displacement.z);
         visit("machine_give", s.machine_give);
-        visit("angle", s.angle);
+        visit("turn_x", s.turn.x);
+        visit("turn_y", s.turn.y);
+        visit("turn_z", s.turn.z);
         visit("facets", s.facets);
         visit("gap", s.gap);
         visit("area", s.area);

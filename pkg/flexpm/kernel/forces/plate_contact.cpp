@@ -47,7 +47,7 @@ Vector touch(Assembly& a, Plate& plate, double give, double dt)
         const Point v = vector_on_edge(a.grains.velocity, nodes, p.weight);
         const Vector way = u + dt * v - plate.displacement;
         double gap = plate.gap[i] + dot(along, way);
-        if (plate.seated) gap -= plate.arms[i] * plate.angle;
+        if (plate.seated) gap -= plate.arms[i] * plate.turn.z;
         plate.opening[i] = gap;
         const double normal = normal_force(plate, p, gap);
         if (plate.friction > 0.0) {

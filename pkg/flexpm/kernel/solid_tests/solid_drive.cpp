@@ -99,8 +99,10 @@ void start(SolidState& s, const SolidDrive& drive, const SolidField& field, doub
     check_finite("part of the field", part, "");
     for (std::size_t i = 0; i < s.plates.size(); ++i) {
         Plate& plate = s.plates[i];
+        const PlateMotion motion = field.of_plate(i);
         plate.displacement = {};
-        if (plate.loaded) plate.displacement = part * field.plate_way(i) * plate.normal;
+        if (plate.loaded) plate.displacement = part * motion.way * plate.normal;
+        if (plate.seated) plate.turn = plate.turn + part * motion.turn;
     }
     const Vector way = part * drive.length * drive.direction;
     const double of_way = way_of_plate(s, drive, field);

@@ -103,10 +103,12 @@ double plate_rate(const SolidState& s, int plate, Vector direction, const Array<
 {
     const Plate& read = plate_at(s, plate);
     return crosshead_rate(s, plate, direction)
-        - give_rate(s, read, velocity) * dot(read.normal, direction);
+        - rates_of(s, read, velocity).give * dot(read.normal, direction);
 }
 
 double machine_energy(const SolidState& s, int plate) { return machine_energy(plate_at(s, plate)); }
+
+double tilt(const SolidState& s, int plate) { return norm(plate_at(s, plate).turn); }
 
 double contact_angle(const SolidState& s, int plate)
 {

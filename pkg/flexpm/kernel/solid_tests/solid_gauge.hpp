@@ -38,6 +38,10 @@ double crosshead_rate(const SolidState& s, int plate, Vector direction);
 /// @throws std::invalid_argument  if there is no such plate
 double machine_energy(const SolidState& s, int plate);
 
+/// By how much a seated plate is turned from square to its normal [rad]; 0 of others.
+/// @throws std::invalid_argument  if there is no such plate
+double tilt(const SolidState& s, int plate);
+
 /// Angle over which a disc lies against a jaw, in the mean over its depth: that of the area in
 /// contact [rad]; 0 of other plates.
 /// @throws std::invalid_argument  if there is no such plate

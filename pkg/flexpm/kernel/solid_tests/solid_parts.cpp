@@ -2,6 +2,7 @@
 #include <flexpm/kernel/solid_tests/solid_parts.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/motion/plate_springs.hpp>
 #include <flexpm/kernel/solid_tests/solid_drive.hpp>
 #include <flexpm/kernel/solid_tests/solid_jaws.hpp>
 #include <flexpm/kernel/solid_tests/solid_sets.hpp>
@@ -13,6 +14,7 @@
 #include <flexpm/kernel/solids/solid_plates.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -27,6 +29,8 @@ namespace {
 constexpr double facing = 0.5;
 /// Gap over the size of the box that is none: round-off [-].
 constexpr double no_gap = 1e-9;
+/// Looks at all contacts until a plate lies, for each of them: more are none that helps.
+constexpr std::size_t most_looks = 10;
 /// Strain at which all is linear, but no round-off, and such a part of the way to the first
 /// softening, where the length of a test is none of the specimen's [-].
 constexpr double small_strain = 1e-7, small_part = 0.1;
@@ -92,15 +96,16 @@ double push_rate(const SolidState& s, const std::vector<int>& plates, Vector dir
     double sum = 0.0;
     for (int number : plates) {
         const Plate& plate = s.plates[number];
-        const double give = give_rate(s, plate, velocity);
+        const PlateRates follows = rates_of(s, plate, velocity);
         for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
             if (!(plate.bonded || plate.opening[i] < 0.0)) continue;
             const auto& nodes = s.surface.nodes[plate.facets[i]];
-            Vector way = give * plate.normal - plate.velocity;
+            Vector way = follows.give * plate.normal - plate.velocity;
             for (int k = 0; k < 3; ++k)
                 way = way + corner_share(plate, i, k) * space_vector(velocity, nodes[k]);
             const Vector normal = normal_at(plate, i), across = dot(normal, way) * normal;
-            sum -= point_stiffness(plate, i) * dot(across, direction)
+            const Vector opens = across - dot(seat_arm(plate, i), follows.turn) * normal;
+            sum -= point_stiffness(plate, i) * dot(opens, direction)
                 + sliding_stiffness(plate, i) * dot(way - across, direction);
         }
     }
@@ -145,6 +150,100 @@ SolidPartState moved_state(SolidState s, const PartGeometry& parts, double dt)
     return found;
 }
 
+/// A contact as a plate sees it that turns on its seat, which is at the origin.
+struct SeatPoint {
+    Point arm;   ///< along both axes of its turns [m]
+    double gap;  ///< [m]
+};
+
+/// Shares of three corners in a place of their plane.
+std::array<double, 3> shares_in(const std::array<SeatPoint, 3>& corners, Point place)
+{
+    std::array<double, 3> shares {};
+    double whole = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        shares[k] = cross(corners[(k + 1) % 3].arm - place, corners[(k + 2) % 3].arm - place);
+        whole += shares[k];
+    }
+    for (double& share : shares)
+        share /= whole;
+    return shares;
+}
+
+/// Gap of the plane of three contacts at a place.
+double height_at(const std::array<SeatPoint, 3>& corners, Point place)
+{
+    const auto shares = shares_in(corners, place);
+    return shares[0] * corners[0].gap + shares[1] * corners[1].gap + shares[2] * corners[2].gap;
+}
+
+/// The three contacts on which a plate lies that was let down at its seat: the seat is over them,
+/// and no contact is nearer than their plane. A contact that is takes the place of one of three, by
+/// the simplex method; at first these are far out, and high.
+/// @param on    what it lies on at first
+/// @param none  distance that is round-off [m]
+std::array<SeatPoint, 3> lain_on(
+    const std::vector<SeatPoint>& points, std::array<SeatPoint, 3> on, double none)
+{
+    for (std::size_t look = 0; look < most_looks * points.size(); ++look) {
+        const SeatPoint* nearest = nullptr;
+        double below = none;
+        for (const SeatPoint& p : points) {
+            const double depth = height_at(on, p.arm) - p.gap;
+            if (!(depth > below)) continue;
+            below = depth;
+            nearest = &p;
+        }
+        if (!nearest) break;
+        const auto seat = shares_in(on, {}), next = shares_in(on, nearest->arm);
+        int leaves = -1;
+        for (int k = 0; k < 3; ++k)
+            if (next[k] > no_gap && (leaves < 0 || seat[k] * next[leaves] < seat[leaves] * next[k]))
+                leaves = k;
+        on[leaves] = *nearest;
+    }
+    return on;
+}
+
+/// Let a plate turn about the middle of its face, and lay it down on what is before it, as it lies
+/// before it is loaded. One that is bonded lies on all of its contacts as it is.
+/// @param places  of its contacts [m]
+void seat(Plate& p, const std::vector<Vector>& places)
+{
+    const auto [first, second] = seat_axes(p.normal);
+    const double size = std::sqrt(p.width);
+    std::vector<SeatPoint> points;
+    double reach = 0.0, high = 0.0;
+    p.seated = true;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        Vector arm = cross(places[i] - p.position, p.normal);
+        if (norm(arm) < no_gap * size) arm = {};
+        p.arms.insert(p.arms.end(), { arm.x, arm.y, arm.z });
+        points.push_back({ { dot(arm, first), dot(arm, second) }, p.gap[i] });
+        reach = std::max(reach, norm(arm));
+        high = std::max(high, p.gap[i]);
+    }
+    const double far = 10.0 * reach, above = 1e6 * (high + size);
+    const auto on = lain_on(points,
+        { SeatPoint { { far, 0.0 }, above }, SeatPoint { { -0.5 * far, 0.8 * far }, above },
+            SeatPoint { { -0.5 * far, -0.8 * far }, above } },
+        no_gap * size);
+    for (const SeatPoint& corner : on) {
+        if (corner.gap < above) continue;
+        refuse("contacts of a seated plate", static_cast<double>(places.size()), "",
+            "must be at least 3, not in a line, around its middle");
+    }
+    if (p.bonded) return;
+    const double at_seat = height_at(on, {});
+    p.turn = ((height_at(on, { reach, 0.0 }) - at_seat) / reach) * first
+        + ((height_at(on, { 0.0, reach }) - at_seat) / reach) * second;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        p.gap[i] -= at_seat;
+        p.opening[i] = p.gap[i] - dot(seat_arm(p, static_cast<int>(i)), p.turn);
+    }
+    p.position = p.position + at_seat * p.normal;
+}
+
 Plate plate_before(const SolidState& s, const SolidPatch& patch)
 {
     check_not_negative("friction of a plate", patch.friction, "");
@@ -158,6 +257,7 @@ Plate plate_before(const SolidState& s, const SolidPatch& patch)
     p.normal = patch.normal;
     p.bonded = patch.bonded;
     double nearest = std::numeric_limits<double>::infinity();
+    std::vector<Vector> places;
     const std::vector<HalfSpace> box = box_of(patch);
     for (int t = 0; t < static_cast<int>(s.surface.grain.size()); ++t) {
         const Vector outwards = area_vector(s, t);
@@ -168,6 +268,7 @@ Plate plate_before(const SolidState& s, const SolidPatch& patch)
         p.width += p.area.back();
         p.position = p.position + p.area.back() * piece.place;
         p.gap.push_back(dot(p.normal, piece.place));
+        places.push_back(piece.place);
         nearest = std::min(nearest, p.gap.back());
     }
     if (p.facets.empty()) {
@@ -179,6 +280,7 @@ Plate plate_before(const SolidState& s, const SolidPatch& patch)
         gap = p.bonded || gap - nearest < none ? 0.0 : gap - nearest;
     p.opening = p.gap;
     if (patch.friction > 0.0) roughen(p, patch.friction);
+    if (patch.seated) seat(p, places);
     return p;
 }
 
@@ -245,7 +347,9 @@ SolidPartState pressed_part_state(
     found.way = std::min(small_strain * mean_radius(s) / farthest, small_part * found.softening);
     for (std::size_t i = 0; i < found.state.plates.size(); ++i) {
         Plate& plate = found.state.plates[i];
-        plate.displacement = found.way * field.plate_way(i) * plate.normal;
+        const PlateMotion motion = field.of_plate(i);
+        plate.displacement = found.way * motion.way * plate.normal;
+        if (plate.seated) plate.turn = plate.turn + found.way * motion.turn;
     }
     begin_from(found.state, field, found.way, 0.0);
     sum_node_sets(found.state, 0.0);

@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/motion/loaded_plate.hpp>
+#include <flexpm/kernel/motion/plate_springs.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_plan.hpp>
@@ -148,16 +149,30 @@ double work_of_step(const Plate& plate, Vector before, double dt)
     return work - give * dot(force, plate.normal);
 }
 
-/// A contact of a plate that gives way.
-struct SoftContact {
-    double gap;        ///< before it gives [m]
-    double stiffness;  ///< [N/m]
-    double opens;      ///< part of a give by which the gap grows [-]
-};
+/// Whether the spring of a machine gives way behind a plate.
+bool gives(const Plate& plate) { return plate.machine_stiffness > 0.0 && !plate.loaded; }
 
-std::vector<SoftContact> contacts_after(const SolidState& s, const Plate& plate, double dt)
+/// What the gap of a contact grows by as its plate follows: see PlateStiffness::add().
+Vector opens(const Plate& plate, int index)
 {
-    std::vector<SoftContact> contacts;
+    const double give = gives(plate) ? dot(normal_at(plate, index), plate.normal) : 0.0;
+    const Vector arm = seat_arm(plate, index);
+    const auto [first, second] = seat_axes(plate.normal);
+    return { give, -dot(arm, first), -dot(arm, second) };
+}
+
+/// Turn by two angles on a seat.
+Vector turn_of(const Plate& plate, Vector motion)
+{
+    const auto [first, second] = seat_axes(plate.normal);
+    return motion.y * first + motion.z * second;
+}
+
+/// A plate at the end of a step that begins at the present places of the grains.
+SoftPlate plate_after(const SolidState& s, const Plate& plate, double dt)
+{
+    SoftPlate found { gives(plate) ? plate.machine_stiffness : 0.0, plate.machine_give,
+        plate.bonded, {} };
     for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
         const int triangle = plate.facets[i], grain = s.surface.grain[triangle];
         Vector way = -1.0 * plate.displacement;
@@ -165,38 +180,11 @@ std::vector<SoftContact> contacts_after(const SolidState& s, const Plate& plate,
             const int node = s.surface.nodes[triangle][k];
             way = way + corner_share(plate, i, k) * displacement_before(s, grain, node, -dt);
         }
-        const Vector normal = normal_at(plate, i);
-        contacts.push_back({ plate.gap[i] + dot(normal, way), point_stiffness(plate, i),
-            dot(normal, plate.normal) });
+        found.contacts.push_back(
+            { plate.gap[i] + dot(normal_at(plate, i), way) - dot(seat_arm(plate, i), plate.turn),
+                point_stiffness(plate, i), opens(plate, i) });
     }
-    return contacts;
-}
-
-/// The give at which spring and contacts balance: what the spring becomes shorter by. The force
-/// that is missing to balance is a concave function of it, in straight pieces, as ever fewer
-/// contacts bear: Newton's method goes up to the root from the first step on, and a step within a
-/// piece ends there.
-double balanced_give(const Plate& plate, const std::vector<SoftContact>& contacts)
-{
-    double give = 0.0;
-    int bore = -1;
-    // the bound counts where a contact that bears nothing comes and goes by round-off
-    for (std::size_t look = 0; look < contacts.size() + 2; ++look) {
-        double missing = plate.machine_stiffness * (plate.machine_give + give);
-        double stiffness = plate.machine_stiffness;
-        int bearing = 0;
-        for (const SoftContact& c : contacts) {
-            const double gap = c.gap + give * c.opens;
-            if (!(plate.bonded || gap < 0.0)) continue;
-            missing += c.stiffness * gap * c.opens;
-            stiffness += c.stiffness * c.opens * c.opens;
-            ++bearing;
-        }
-        give -= missing / stiffness;
-        if (bearing == bore) break;
-        bore = bearing;
-    }
-    return give;
+    return found;
 }
 
 }  // namespace
@@ -237,7 +225,8 @@ void hold_touching(SolidState& s)
         keep(all.facets, plate.facets, 1);
         for (auto member : { &Plate::gap, &Plate::area, &Plate::opening, &Plate::rubbed })
             keep(all.*member, plate.*member, 1);
-        for (auto member : { &Plate::normals, &Plate::shear_force, &Plate::slid, &Plate::shares })
+        for (auto member :
+            { &Plate::normals, &Plate::shear_force, &Plate::slid, &Plate::shares, &Plate::arms })
             keep(all.*member, plate.*member, 3);
         plate.bonded = true;
     }
@@ -250,7 +239,8 @@ int find_alike(const SolidState& s, const Plate& plate)
         return there.side == plate.side && norm(there.normal - plate.normal) == 0.0
             && norm(there.position - plate.position) == 0.0 && there.facets == plate.facets
             && there.area == plate.area && there.friction == plate.friction
-            && there.bonded == plate.bonded && there.strip == plate.strip;
+            && there.bonded == plate.bonded && there.strip == plate.strip
+            && there.seated == plate.seated;
     };
     const auto found = std::find_if(s.plates.begin(), s.plates.end(), same);
     return found == s.plates.end() ? -1 : static_cast<int>(found - s.plates.begin());
@@ -329,6 +319,11 @@ Vector normal_at(const Plate& plate, int index)
     return plate.normals.empty() ? plate.normal : axes_of(plate.normals, index);
 }
 
+Vector seat_arm(const Plate& plate, int index)
+{
+    return plate.seated ? axes_of(plate.arms, index) : Vector {};
+}
+
 double sliding_stiffness(const Plate& plate, int index)
 {
     return plate.friction > 0.0 ? plate.shear_stiffness * plate.area[index] : 0.0;
@@ -344,7 +339,8 @@ void add_plate_forces(SolidState& s, int block)
         const Vector way =
             touched(plate, touch.index, s.grains.displacement, nodes) - plate.displacement;
         const Vector normal = normal_at(plate, touch.index);
-        plate.opening[touch.index] = plate.gap[touch.index] + dot(normal, way);
+        plate.opening[touch.index] = plate.gap[touch.index] + dot(normal, way)
+            - dot(seat_arm(plate, touch.index), plate.turn);
         Vector force = push(plate, touch.index) * normal;
         if (plate.friction > 0.0) force = force + rub(plate, touch.index, way);
         for (int k = 0; k < 3; ++k) {
@@ -394,17 +390,20 @@ void set_machine(SolidState& s, int plate, double stiffness)
 void give_way(SolidState& s, double dt)
 {
     for (Plate& plate : s.plates) {
-        if (!(plate.machine_stiffness > 0.0) || plate.loaded) continue;
-        const double give = balanced_give(plate, contacts_after(s, plate, dt));
-        plate.machine_give += give;
-        plate.displacement = plate.displacement - give * plate.normal;
+        if (!gives(plate) && !plate.seated) continue;
+        const Vector motion = plate_after(s, plate, dt).least();
+        plate.machine_give += motion.x;
+        plate.displacement = plate.displacement - motion.x * plate.normal;
+        plate.turn = plate.turn + turn_of(plate, motion);
     }
 }
 
-double give_rate(const SolidState& s, const Plate& plate, const Array<double>& velocity)
+PlateRates rates_of(const SolidState& s, const Plate& plate, const Array<double>& velocity)
 {
-    if (!(plate.machine_stiffness > 0.0) || plate.loaded) return 0.0;
-    double growth = 0.0, stiffness = plate.machine_stiffness;
+    if (!gives(plate) && !plate.seated) return {};
+    PlateStiffness stiffness;
+    if (gives(plate)) stiffness.add_machine(plate.machine_stiffness);
+    Vector growth;
     for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
         if (!(plate.bonded || plate.opening[i] < 0.0)) continue;
         Vector way = plate.velocity;
@@ -412,12 +411,12 @@ double give_rate(const SolidState& s, const Plate& plate, const Array<double>& v
             const int node = s.surface.nodes[plate.facets[i]][k];
             way = way - corner_share(plate, i, k) * space_vector(velocity, node);
         }
-        const Vector normal = normal_at(plate, i);
-        const double along = dot(normal, plate.normal), spring = point_stiffness(plate, i);
-        growth += spring * along * dot(normal, way);
-        stiffness += spring * along * along;
+        const double spring = point_stiffness(plate, i);
+        stiffness.add(spring, opens(plate, i));
+        growth = growth + spring * dot(normal_at(plate, i), way) * opens(plate, i);
     }
-    return growth / stiffness;
+    const Vector motion = stiffness.moved_by(growth);
+    return { motion.x, turn_of(plate, motion) };
 }
 
 void sum_plates(SolidState& s, double dt, double damping)

@@ -6,7 +6,7 @@
 /// Deviation D20: it has the stiffness K_n of the grains' contacts times the triangle's area, and
 /// along the plate, if that is not smooth, K_s.
 /// Deviation D95: the spring of a soft machine has no mass, and a plate before one is where spring
-/// and contacts balance.
+/// and contacts balance; on a seat it turns until they bear no moment.
 #pragma once
 
 #include <flexpm/kernel/solids/solid_state.hpp>
@@ -85,17 +85,27 @@ void press(SolidState& s, int plate, double pressure);
 ///         plate has another spring, or it is a jaw with friction
 void set_machine(SolidState& s, int plate, double stiffness);
 
-/// Bring plates to where their springs bear what their contacts do at the end of a step that begins
-/// at the present places of the grains; crossheads are there already.
+/// Bring plates to where the springs of their machines bear what their contacts do, and their seats
+/// no moment, at the end of a step that begins at the present places of the grains; crossheads are
+/// there already.
 void give_way(SolidState& s, double dt);
 
-/// What the spring of a plate becomes shorter by in a second, as grains move [m/s].
+/// How a plate follows what it touches, in a second.
+struct PlateRates {
+    double give = 0.0;  ///< what the spring of its machine becomes shorter by [m/s]
+    Vector turn;        ///< on its seat [rad/s]
+};
+
 /// @param velocity  of all nodes
-double give_rate(const SolidState& s, const Plate& plate, const Array<double>& velocity);
+PlateRates rates_of(const SolidState& s, const Plate& plate, const Array<double>& velocity);
 
 /// Sum forces and works of all plates after the grains have moved by a step, and integrate the
 /// loaded ones.
 void sum_plates(SolidState& s, double dt, double damping);
+
+/// What a seated plate's face goes along its normal at contact `index` by each component of a turn
+/// [m]; nought without a seat.
+Vector seat_arm(const Plate& plate, int index);
 
 /// Area on which a plate presses [m^2].
 double pressed_area(const Plate& plate);

@@ -53,15 +53,6 @@ SpaceGradient turning_block(const SpaceGradient& k, Vector arm, double radius)
     return { column({ 1.0, 0.0, 0.0 }), column({ 0.0, 1.0, 0.0 }), column({ 0.0, 0.0, 1.0 }) };
 }
 
-/// Way of a specimen before a contact of a plate.
-Vector way_before(const LinearSolid::Press& p, const double* u)
-{
-    Vector way;
-    for (int k = 0; k < 3; ++k)
-        way = way + p.shares[k] * triple_at(u, p.nodes[k]);
-    return way;
-}
-
 }  // namespace
 
 LinearSolid::Spring spring_at(double area, std::vector<double> shares)
@@ -146,10 +137,10 @@ void LinearSolid::add_faces(const Share& own, const double* u, double* forces) c
 
 void LinearSolid::add_presses(const double* u, double* forces) const
 {
-    const std::vector<double> floating = floating_ways(u);
+    const std::vector<Vector> motions = following(u, [](const Press&) { return 0.0; });
     for (const Press& p : presses) {
         const Vector way = way_before(p, u), across = dot(p.normal, way) * p.normal;
-        const Vector pressed = p.floats ? across - floating[p.plate] * p.normal : across;
+        const Vector pressed = across + dot(p.opens, motions[p.plate]) * p.normal;
         const Vector force = p.stiffness * pressed + p.sliding * (way - across);
         for (int k = 0; k < 3; ++k)
             add_triple(forces, p.nodes[k], p.shares[k] * force);
@@ -172,21 +163,22 @@ void LinearSolid::add(const double* u, double* forces) const
     add_presses(u, forces);
 }
 
-std::vector<double> LinearSolid::floating_ways(const double* u) const
+std::vector<PlateStiffness> LinearSolid::plate_stiffness() const
 {
-    std::vector<double> ways, stiffness;
+    std::vector<PlateStiffness> found;
     for (const Press& p : presses) {
-        if (!p.floats) continue;
-        if (p.plate >= static_cast<int>(ways.size())) {
-            ways.resize(p.plate + 1, 0.0);
-            stiffness.resize(p.plate + 1, 0.0);
-        }
-        ways[p.plate] += p.stiffness * dot(p.normal, way_before(p, u));
-        stiffness[p.plate] += p.stiffness;
+        if (p.plate >= static_cast<int>(found.size())) found.resize(p.plate + 1);
+        found[p.plate].add(p.stiffness, p.opens);
     }
-    for (std::size_t i = 0; i < ways.size(); ++i)
-        if (stiffness[i] > 0.0) ways[i] /= stiffness[i];
-    return ways;
+    return found;
+}
+
+Vector LinearSolid::way_before(const Press& p, const double* u) const
+{
+    Vector way;
+    for (int k = 0; k < 3; ++k)
+        way = way + p.shares[k] * triple_at(u, p.nodes[k]);
+    return way;
 }
 
 Vector LinearSolid::place_of(const Press& p) const

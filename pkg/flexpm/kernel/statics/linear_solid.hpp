@@ -4,6 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/iteration/free_solve.hpp>
+#include <flexpm/kernel/motion/plate_springs.hpp>
 
 #include <array>
 #include <vector>
@@ -39,7 +40,8 @@ struct LinearSolid : LinearForces {
         Vector normal;
         double stiffness;  ///< [N/m]
         double sliding;    ///< the same along its face; 0: smooth [N/m]
-        bool floats;       ///< the plate is free to move along its normal
+        Vector opens;      ///< growth of its gap as the plate follows, see PlateStiffness::add():
+                           ///< by a give where a load moves the plate, by turns on a seat
     };
 
     std::vector<PlaneStiffness> kinds;  ///< of elements
@@ -60,9 +62,29 @@ struct LinearSolid : LinearForces {
     DiagonalBlocks diagonal_blocks() const override;
     std::optional<CoarseGrid> coarse_grid(const std::vector<std::uint8_t>& held) const override;
 
-    /// Ways of the plates that float, along their normals, where nodes move so: no force is on them
-    /// then. By their numbers; 0 of others.
-    std::vector<double> floating_ways(const double* u) const;
+    /// Stiffness of the contacts of plates, by their numbers, against what is free of them.
+    std::vector<PlateStiffness> plate_stiffness() const;
+
+    /// Motions of what is free of plates where nodes move so: no force and moment is on it then. By
+    /// their numbers; none of others.
+    /// @param way_of  way(press): that of its plate along the contact's normal, if this is given
+    ///         [m]
+    template <class Way> std::vector<Vector> following(const double* u, Way way_of) const
+    {
+        const std::vector<PlateStiffness> stiffness = plate_stiffness();
+        std::vector<Vector> motions(stiffness.size());
+        for (const Press& p : presses) {
+            if (p.opens.x == 0.0 && p.opens.y == 0.0 && p.opens.z == 0.0) continue;
+            const double gap = dot(p.normal, way_before(p, u)) - way_of(p);
+            motions[p.plate] = motions[p.plate] - p.stiffness * gap * p.opens;
+        }
+        for (std::size_t i = 0; i < motions.size(); ++i)
+            motions[i] = stiffness[i].moved_by(motions[i]);
+        return motions;
+    }
+
+    /// Way of the specimen before a contact of a plate.
+    Vector way_before(const Press& p, const double* u) const;
 
     /// Where a contact of a plate lies.
     Vector place_of(const Press& p) const;

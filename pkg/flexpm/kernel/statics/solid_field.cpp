@@ -85,6 +85,14 @@ void add_faces(const SolidState& s, const NodeNumbers& numbers, LinearSolid& sol
     }
 }
 
+/// Growth of a contact's gap as its plate follows, see LinearSolid::Press::opens.
+Vector free_opening(const Plate& plate, int index)
+{
+    const Vector arm = seat_arm(plate, index);
+    const auto [first, second] = seat_axes(plate.normal);
+    return { plate.loaded ? 1.0 : 0.0, -dot(arm, first), -dot(arm, second) };
+}
+
 void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& solid)
 {
     for (int number = 0; number < static_cast<int>(s.plates.size()); ++number) {
@@ -98,7 +106,7 @@ void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& s
             const std::array<double, 3> shares = { corner_share(plate, i, 0),
                 corner_share(plate, i, 1), corner_share(plate, i, 2) };
             solid.presses.push_back({ number, touches, nodes, shares, normal_at(plate, i),
-                point_stiffness(plate, i), sliding_stiffness(plate, i), plate.loaded });
+                point_stiffness(plate, i), sliding_stiffness(plate, i), free_opening(plate, i) });
         }
     }
 }
@@ -113,7 +121,7 @@ void check_loads(const LinearSolid& solid, const SolidDrive& drive)
 {
     for (const PlateLoad& load : drive.loads) {
         const bool bears = std::any_of(solid.presses.begin(), solid.presses.end(),
-            [&](const LinearSolid::Press& p) { return p.plate == load.plate && p.floats; });
+            [&](const LinearSolid::Press& p) { return p.plate == load.plate && p.opens.x != 0.0; });
         if (!bears)
             refuse("plate under a load", load.plate, "",
                 "must touch grains, be free to move, and not be driven");
@@ -126,7 +134,7 @@ LinearSolid touched_solid(const SolidState& s, const SolidDrive& drive, int thre
 {
     LinearSolid solid = linear_solid(s, threads);
     for (LinearSolid::Press& p : solid.presses)
-        p.floats = p.floats && !is_driven(p, drive);
+        if (is_driven(p, drive)) p.opens.x = 0.0;
     auto& presses = solid.presses;
     presses.erase(std::remove_if(presses.begin(), presses.end(),
                       [](const LinearSolid::Press& p) { return !p.touches; }),
@@ -135,53 +143,65 @@ LinearSolid touched_solid(const SolidState& s, const SolidDrive& drive, int thre
     return solid;
 }
 
-/// Sum over the contacts of a plate [N/m].
-double stiffness_of(const LinearSolid& solid, int plate)
+/// Way along a contact's normal on which its plate is driven [m].
+double driven_way(const LinearSolid::Press& p, const SolidDrive& drive)
 {
-    double sum = 0.0;
-    for (const LinearSolid::Press& p : solid.presses)
-        if (p.plate == plate) sum += p.stiffness;
-    return sum;
+    return is_driven(p, drive) ? dot(p.normal, drive.length * drive.direction) : 0.0;
 }
 
-/// Forces on nodes when driven plates have gone their way, and of loads.
+/// Motions of what is free of plates under the loading, by where the nodes are.
+std::vector<Vector> motions_of(const LinearSolid& solid, const SolidDrive& drive, const double* u)
+{
+    std::vector<Vector> motions =
+        solid.following(u, [&](const LinearSolid::Press& p) { return driven_way(p, drive); });
+    for (const PlateLoad& load : drive.loads) {
+        const PlateStiffness stiffness = solid.plate_stiffness()[load.plate];
+        motions[load.plate] = motions[load.plate] + stiffness.moved_by({ -load.force, 0.0, 0.0 });
+    }
+    return motions;
+}
+
+/// How far a plate goes along the normal of a contact, there [m].
+double way_at(const LinearSolid::Press& p, const SolidDrive& drive, Vector motion)
+{
+    return driven_way(p, drive) - dot(p.opens, motion);
+}
+
+/// Forces on nodes that stay when driven plates have gone their way, and of loads.
 std::vector<double> push_of(const LinearSolid& solid, const SolidDrive& drive)
 {
-    const Vector way = drive.length * drive.direction;
     std::vector<double> on_nodes(3 * solid.places.size(), 0.0);
-    const auto push = [&](const LinearSolid::Press& p, double force) {
+    const std::vector<Vector> motions = motions_of(solid, drive, on_nodes.data());
+    for (const LinearSolid::Press& p : solid.presses) {
+        const double force = p.stiffness * way_at(p, drive, motions[p.plate]);
         for (int k = 0; k < 3; ++k)
             add_triple(on_nodes.data(), p.nodes[k], (3.0 * p.shares[k] * (force / 3.0)) * p.normal);
-    };
-    for (const LinearSolid::Press& p : solid.presses)
-        if (is_driven(p, drive)) push(p, p.stiffness * dot(p.normal, way));
-    for (const PlateLoad& load : drive.loads) {
-        const double alone = load.force / stiffness_of(solid, load.plate);
-        for (const LinearSolid::Press& p : solid.presses)
-            if (p.plate == load.plate) push(p, p.stiffness * alone);
     }
     return on_nodes;
 }
 
-/// Ways of plates that a load moves, by where the nodes are.
-std::vector<double> plate_ways(const LinearSolid& solid, const SolidDrive& drive, const double* u)
+/// Motions of plates, by where the nodes are.
+std::vector<PlateMotion> plate_motions(
+    const SolidState& s, const LinearSolid& solid, const SolidDrive& drive, const double* u)
 {
-    std::vector<double> ways = solid.floating_ways(u);
-    for (const PlateLoad& load : drive.loads)
-        ways[load.plate] += load.force / stiffness_of(solid, load.plate);
-    return ways;
+    std::vector<PlateMotion> found;
+    for (const Vector& m : motions_of(solid, drive, u)) {
+        const auto [first, second] = seat_axes(s.plates[found.size()].normal);
+        found.push_back({ -m.x, m.y * first + m.z * second });
+    }
+    return found;
 }
 
 /// Load of driven plates along their way, by where the nodes are.
 double load_of(const LinearSolid& solid, const SolidDrive& drive, const double* u)
 {
+    const std::vector<Vector> motions = motions_of(solid, drive, u);
     double sum = 0.0;
     for (const LinearSolid::Press& p : solid.presses) {
         if (!is_driven(p, drive)) continue;
-        Vector way = drive.length * drive.direction;
-        for (int k = 0; k < 3; ++k)
-            way = way - p.shares[k] * triple_at(u, p.nodes[k]);
-        sum += p.stiffness * dot(p.normal, way) * dot(p.normal, drive.direction);
+        const double pressed =
+            way_at(p, drive, motions[p.plate]) - dot(p.normal, solid.way_before(p, u));
+        sum += p.stiffness * pressed * dot(p.normal, drive.direction);
     }
     return sum;
 }
@@ -240,7 +260,7 @@ SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, const So
     for (std::size_t n = 0; n < solid.places.size(); ++n)
         field.ways.push_back(triple_at(given.data(), static_cast<int>(n))
             + triple_at(found.u.data(), static_cast<int>(n)));
-    field.plates = plate_ways(solid, drive, found.u.data());
+    field.plates = plate_motions(s, solid, drive, found.u.data());
     field.load = load_of(solid, drive, found.u.data());  // no given node lies before a plate
     return field;
 }
@@ -271,7 +291,7 @@ SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, const S
         field.turns.push_back((1.0 / rigid.radii[g]) * triple_at(found.u.data(), 2 * g + 1));
     }
     const std::vector<double> moved = rigid.on_nodes(found.u.data());
-    field.plates = plate_ways(solid, drive, moved.data());
+    field.plates = plate_motions(s, solid, drive, moved.data());
     field.load = load_of(solid, drive, moved.data());
     return field;
 }

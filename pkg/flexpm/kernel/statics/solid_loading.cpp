@@ -96,7 +96,7 @@ void add_plate_motion(SolidState& s, const SolidField& field, double rate)
     for (std::size_t i = 0; i < field.plates.size(); ++i) {
         Plate& plate = s.plates[i];
         if (!plate.loaded) continue;
-        const Vector velocity = rate * field.plates[i] * plate.normal;
+        const Vector velocity = rate * field.plates[i].way * plate.normal;
         plate.velocity = plate.velocity + velocity;
         s.loading.plates.resize(s.plates.size());
         s.loading.plates[i].velocity = velocity;

@@ -24,19 +24,25 @@ void prescribe(SolidState& s, const std::vector<int>& nodes, int axis, double ve
 /// Force along an axis that holds nodes against the grains [N].
 double holding_force(const SolidState& s, const std::vector<int>& nodes, int axis);
 
+/// Motion of a plate as it follows what it touches.
+struct PlateMotion {
+    double way = 0.0;  ///< along its normal, where a load moves it [m]
+    Vector turn;       ///< on its seat [rad]
+};
+
 /// A displacement of all grains.
 struct SolidField {
     /// Ways of nodes, grain after grain, the centre last; of rigid grains those of centres [m].
     std::vector<Vector> ways;
     std::vector<Vector> turns;  ///< of rigid grains, small [rad]; else empty
-    /// Ways of the plates that a load moves, along their normals, by number; 0 of others and beyond
-    /// the last of them [m].
-    std::vector<double> plates = {};
+    /// Motions of the plates that a load moves or that turn on a seat, by number; none of others
+    /// and beyond the last of them.
+    std::vector<PlateMotion> plates = {};
     double load = 0.0;  ///< of driven plates along the way for which the field is [N]
 
-    double plate_way(std::size_t plate) const
+    PlateMotion of_plate(std::size_t plate) const
     {
-        return plate < plates.size() ? plates[plate] : 0.0;
+        return plate < plates.size() ? plates[plate] : PlateMotion {};
     }
 };
 

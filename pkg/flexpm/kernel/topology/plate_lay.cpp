@@ -37,10 +37,10 @@ void lay_down(Plate& p)
         if (p.arms[i] < 0.0) least = std::max(least, p.gap[i] / p.arms[i]);
         if (p.arms[i] > 0.0) most = std::min(most, p.gap[i] / p.arms[i]);
     }
-    p.angle = std::max(least, std::min(most, 0.0));
+    p.turn.z = std::max(least, std::min(most, 0.0));
     p.position = p.position + ahead * p.normal;
     for (std::size_t i = 0; i < count; ++i)
-        p.opening[i] = p.gap[i] - p.arms[i] * p.angle;
+        p.opening[i] = p.gap[i] - p.arms[i] * p.turn.z;
 }
 
 /// Part of its facet that a plate takes, its first and last place, 0 at the facet's start.

@@ -57,6 +57,7 @@ void Gauge::setZero(const flexpm::SolidState& solid)
 Real Gauge::reading(const flexpm::SolidState& solid) const
 {
 	if (!isState()) return perLength(moved(solid) - zero);
+	if (reads == "angle") return flexpm::tilt(solid, plate);
 	return reads == "machine_energy" ? flexpm::machine_energy(solid, plate) : flexpm::contact_angle(solid, plate);
 }
 
@@ -72,7 +73,7 @@ Real Gauge::reading(const flexpm::Assembly& assembly) const
 	if (!isState()) return perLength(moved(assembly) - zero);
 	flexpm::require_plate(assembly, plate);
 	const flexpm::Plate& read = assembly.plates[plate];
-	if (reads == "angle") return read.angle;
+	if (reads == "angle") return read.turn.z;
 	return reads == "contact_angle" ? flexpm::contact_angle(assembly, plate) : flexpm::machine_energy(read);
 }
 

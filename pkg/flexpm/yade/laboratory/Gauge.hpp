@@ -44,7 +44,7 @@ public:
 		((int, first, -1,, "Node at the first place, as GrainSolver.gaugePoints gives it [-]."))
 		((int, second, -1,, "Node at the second place [-]."))
 		((int, plate, -1,, "Number of a plate whose way is read instead [-]."))
-		((string, reads,,, "What is read of that plate instead of its way: crosshead, the way of its crosshead; machine_energy, stored in the spring between both [J]; contact_angle, of a disc in a jaw [rad]; angle, by which a seated plate has turned [rad]."))
+		((string, reads,,, "What is read of that plate instead of its way: crosshead, the way of its crosshead; machine_energy, stored in the spring between both [J]; contact_angle, of a disc in a jaw [rad]; angle, by which a seated plate is turned from square to its normal, in space its size [rad]."))
 		((vector<int>, nodes,,, "Nodes whose mean way is read instead, as GrainSolver.sectionNodes gives them [-]."))
 		((Vector3r, direction, Vector3r::UnitX(),, "Direction of the opening or the way, a unit vector [-]."))
 		((Real, zero, 0.,, "What it has opened, or the plate has moved, when it began to count [m]."))

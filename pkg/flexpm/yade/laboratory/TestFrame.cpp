@@ -53,7 +53,7 @@ namespace {
 		for (std::size_t i = 0; i < found.state.plates.size(); ++i) {
 			const flexpm::Plate& p = found.state.plates[i];
 			plates.append(py::make_tuple(
-			        p.force.x, p.force.y, p.displacement.x, p.displacement.y, p.angle, flexpm::contact_angle(found.state, static_cast<int>(i))));
+			        p.force.x, p.force.y, p.displacement.x, p.displacement.y, p.turn.z, flexpm::contact_angle(found.state, static_cast<int>(i))));
 		}
 		for (const flexpm::NodeSet& s : found.state.node_sets)
 			sets.append(py::make_tuple(s.force.x, s.force.y, s.displacement.x, s.displacement.y, s.moment.z));
@@ -207,7 +207,7 @@ namespace {
 		};
 		py::list plates, sets;
 		for (const flexpm::Plate& p : found.state.plates)
-			append(plates, p.force, p.displacement);
+			append(plates, p.force, p.displacement, p.turn);
 		for (const flexpm::NodeSet& s : found.state.node_sets)
 			append(sets, s.force, s.displacement, s.moment, s.angle);
 		py::dict d;

@@ -151,7 +151,7 @@ py::list GrainSolver::plates()
 		d["machine"]       = p.machine_stiffness;
 		d["machine_give"]  = p.machine_give;
 		d["seated"]        = p.seated;
-		d["angle"]         = p.angle;
+		d["angle"]         = p.turn.z;
 		d["contact_angle"] = flexpm::contact_angle(a, static_cast<int>(i));
 		d["contact_width"] = flexpm::contact_width(a, static_cast<int>(i));
 		all.append(d);

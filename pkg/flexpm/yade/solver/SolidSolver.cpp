@@ -114,14 +114,14 @@ namespace {
 
 } // namespace
 
-int SolidSolver::layPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip)
+int SolidSolver::layPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip, bool seated)
 {
-	return flexpm::add_patch_plate(state, { fromYade(normal), fromYade(low), fromYade(high), friction, bonded, strip });
+	return flexpm::add_patch_plate(state, { fromYade(normal), fromYade(low), fromYade(high), friction, bonded, strip, seated });
 }
 
-int SolidSolver::findPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip)
+int SolidSolver::findPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip, bool seated)
 {
-	return flexpm::find_patch_plate(state, { fromYade(normal), fromYade(low), fromYade(high), friction, bonded, strip });
+	return flexpm::find_patch_plate(state, { fromYade(normal), fromYade(low), fromYade(high), friction, bonded, strip, seated });
 }
 
 namespace {
@@ -182,6 +182,8 @@ py::list SolidSolver::plates()
 		d["machine"]       = p.machine_stiffness;
 		d["machine_give"]  = p.machine_give;
 		d["contact_angle"] = flexpm::contact_angle(state, static_cast<int>(i));
+		d["seated"]        = p.seated;
+		d["angle"]         = tupleOf(p.turn);
 		all.append(d);
 	}
 	return all;

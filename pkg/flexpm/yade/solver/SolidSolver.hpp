@@ -28,8 +28,8 @@ public:
 	void holdDisc(Real jawRadius);
 	int  layLine(int side, Real x, Real z, Real width, bool pinned);
 	int  findLine(int side, Real x, Real z, Real width, bool pinned);
-	int  layPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip);
-	int  findPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip);
+	int  layPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip, bool seated);
+	int  findPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip, bool seated);
 	int  layJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip);
 	int  findJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip);
 	void freePlate(int plate);
@@ -72,9 +72,9 @@ public:
 		.def("layLine", WithGrains<&SolidSolver::layLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false),
 			"Lay a plate that bears along a line across the depth, along y at x and z, with the stiffness of a strip of that width [m]: a roller on the bottom (side 0) or a head on top (2). pinned: it does not slide while it presses. Returns its number. Scale the masses afterwards.")
 		.def("findLine", WithGrains<&SolidSolver::findLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false), "Number of the plate that layLine has laid so; -1 without one.")
-		.def("layPatch", WithGrains<&SolidSolver::layPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0.),
-			"Lay a plate against what lies of the outside in a box from low to high [m] and faces a normal, a unit vector that points into the specimen. friction: coefficient [-]; bonded: it pulls, too; strip: stiffness per area of a soft layer between, in series [Pa/m]. Returns its number. Scale the masses afterwards.")
-		.def("findPatch", WithGrains<&SolidSolver::findPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0.), "Number of the plate that layPatch has laid so; -1 without one.")
+		.def("layPatch", WithGrains<&SolidSolver::layPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
+			"Lay a plate against what lies of the outside in a box from low to high [m] and faces a normal, a unit vector that points into the specimen. friction: coefficient [-]; bonded: it pulls, too; strip: stiffness per area of a soft layer between, in series [Pa/m]; seated: it turns about the middle of its face, as on a spherical seat. Returns its number. Scale the masses afterwards.")
+		.def("findPatch", WithGrains<&SolidSolver::findPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false), "Number of the plate that layPatch has laid so; -1 without one.")
 		.def("layJaw", WithGrains<&SolidSolver::layJaw>::call, (py::arg("towards"), py::arg("ratio"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
 			"Lay a curved jaw against the mantle of a disc about the y axis, in a direction from that axis, before an angle of it [rad]. ratio: of its radius over the disc's, at least 1; friction: coefficient [-]; strip: as of layPatch. Returns its number. Scale the masses afterwards.")
 		.def("findJaw", WithGrains<&SolidSolver::findJaw>::call, (py::arg("towards"), py::arg("ratio"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.), "Number of the plate that layJaw has laid so; -1 without one.")

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...models.grains import Model
-from ...require import NOT_NEGATIVE, quoted, require_flag, require_number, require_whole
+from ...require import NOT_NEGATIVE, require_flag, require_number, require_whole
 from ...specimens.space.specimen import SolidSpecimen
 from ..layout import NO_SLIDING, PartLayout, strip_of
 from ..parts import Part
@@ -68,12 +68,13 @@ class SolidPartLayout(PartLayout, SolidGrains):
             bonded: It pulls, too, and slides freely; no roller does.
             strip: Stiffness per area of a soft layer between, E / h of one of thickness h [Pa/m];
                 None: there is none. No line has one.
-            seated: Must be False.
+            seated: It turns freely about the middle of its face, as on a spherical seat, and is
+                laid down on what is before it, as of the plane (deviation D95). No line does.
 
         Raises:
             InputError: for a place that is not on the outside, or a size out of range.
         """
-        refuse("support", seated=seated)
+        seated = require_flag("support: seated", seated)
         specimen, at = self._specimen, require_vector("support: place", place, axes=SPACE)
         inwards = require_vector("support: normal", normal, "", SPACE)
         if any(inwards):
@@ -83,17 +84,18 @@ class SolidPartLayout(PartLayout, SolidGrains):
         friction = require_number("support: friction", friction, NOT_NEGATIVE)
         bonded = require_flag("support: bonded", bonded)
         if length is None:
-            if bonded or strip is not None or friction not in (0.0, NO_SLIDING):
+            more = bonded or seated or strip is not None
+            if more or friction not in (0.0, NO_SLIDING):
                 raise InputError(
-                    "support: length = None, must be given for one that is bonded, or has friction "
-                    "or a strip; a line is a roller or pinned"
+                    "support: length = None, must be given for one that is bonded or seated, or "
+                    "has friction or a strip; a line is a roller or pinned"
                 )
             return self._line(at, inwards, pinned)
         edges = edges_of(length)
         into = np.array(inwards) if any(inwards) else inwards_at(specimen, at)
         layer = strip_of("support", strip)
         patch = patch_around(specimen, at, edges, into)
-        return self._patch("support", patch, friction, bonded, layer)
+        return self._patch("support", patch, friction, bonded, layer, seated)
 
     def platen(
         self,
@@ -111,16 +113,16 @@ class SolidPartLayout(PartLayout, SolidGrains):
             friction: Coefficient [-].
             bonded: It pulls, too. It slides freely along itself.
             strip: As for `support` [Pa/m].
-            seated: Must be False.
+            seated: As for `support`.
 
         Raises:
             InputError: for a side that is not flat, or that there is not.
         """
-        refuse("platen", seated=seated)
+        seated = require_flag("platen: seated", seated)
         patch = side_patch(self._specimen, require_whole("platen: side", side))
         friction = require_number("platen: friction", friction, NOT_NEGATIVE)
         bonded = require_flag("platen: bonded", bonded)
-        return self._patch("platen", patch, friction, bonded, strip_of("platen", strip))
+        return self._patch("platen", patch, friction, bonded, strip_of("platen", strip), seated)
 
     def jaw(
         self,
@@ -186,8 +188,10 @@ class SolidPartLayout(PartLayout, SolidGrains):
             patch_around(self._specimen, place, edges, np.array(INWARDS[side])),
         )
 
-    def _patch(self, kind: str, patch: Patch, friction: float, bonded: bool, strip: float) -> Part:
-        values = (patch.normal, patch.low, patch.high, friction, bonded, strip)
+    def _patch(
+        self, kind: str, patch: Patch, friction: float, bonded: bool, strip: float, seated: bool
+    ) -> Part:
+        values = (patch.normal, patch.low, patch.high, friction, bonded, strip, seated)
         return self._lay(
             kind,
             lambda: self._solid.findPatch(*values),
@@ -218,16 +222,3 @@ class SolidPartLayout(PartLayout, SolidGrains):
         specimen: object = self.built.specimen
         assert isinstance(specimen, SolidSpecimen)
         return specimen
-
-
-def refuse(call: str, **given: object) -> None:
-    """Refuse arguments of a call that solids do not have.
-
-    Raises:
-        InputError: for one that is given.
-    """
-    for name, value in given.items():
-        if value:
-            raise InputError(
-                f"{call}: {name} = {quoted(value)}, must be left out for a solid, which has none"
-            )

@@ -31,9 +31,9 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
     """A solid between parts: plates before parts of its outside, and sets of nodes.
 
     Its calls are those of `PartRig`, places and directions with a third component: `support`,
-    `platen`, `jaw`, `hold`, `gauge`, `way_of`, `contact_of`, `drive`, `turn`, `elastic`, then
-    `press`, `fluid`, `load`, `strain_to`, `stress_to`, `relax`, `unload`, `cycle`, `follow`. What
-    is of the plane alone is refused. Deviation D101.
+    `platen`, `jaw`, `hold`, `gauge`, `way_of`, `contact_of`, `angle_of`, `drive`, `turn`,
+    `elastic`, then `press`, `fluid`, `load`, `strain_to`, `stress_to`, `relax`, `unload`, `cycle`,
+    `follow`. What is of the plane alone is refused. Deviation D101.
     """
 
     _axes = SPACE
@@ -60,10 +60,6 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         """
         self._patches, self._traces = {}, {}
         super().__init__(built, kind=kind, runner=runner, **leaves)
-
-    def angle_of(self, *_: object, **__: object) -> NoReturn:
-        """Refuse it: of seats, in the plane alone."""
-        raise _of_the_plane(self.angle_of)
 
     def turn(
         self,
@@ -122,7 +118,11 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
                 "part": "plate",
                 **{name: one[name] for name in names},
                 "place": before(one),
-                **{name: one[name] for name in ("strip", "radius", "machine") if one[name]},
+                **{
+                    name: one[name]
+                    for name in ("strip", "radius", "machine", "seated")
+                    if one[name]
+                },
                 "face": self._traces.get(number, []),
             }
             for number, one in enumerate(self._solid.plates())

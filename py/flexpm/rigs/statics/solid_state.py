@@ -36,7 +36,7 @@ class SolidElasticState(SolidSnapshot):
     way: float = 0.0  #: of the driven parts, or a crosshead, along the loading [m, or rad]
     load: float = 0.0  #: of the driven parts on the specimen, along the loading [N, or N m]
     rig: object = field(default=None, repr=False)  #: whose parts have the forces
-    plates: tuple[tuple[float, ...], ...] = ()  #: force and displacement of each
+    plates: tuple[tuple[float, ...], ...] = ()  #: force, displacement and angle of each
     node_sets: tuple[tuple[float, ...], ...] = ()  #: the same, moment and angle
 
     def force(self, part: RigPart) -> tuple[float, ...]:
@@ -51,9 +51,9 @@ class SolidElasticState(SolidSnapshot):
         """Moment of held nodes on the specimen about their place, x, y and z [N m]."""
         return self._of(require_part("elastic: part", self.rig, part, HeldNodes))[6:9]
 
-    def angle(self, part: HeldNodes) -> tuple[float, ...]:
-        """Angle by which held nodes have turned, x, y and z [rad]."""
-        return self._of(require_part("elastic: part", self.rig, part, HeldNodes))[9:]
+    def angle(self, part: RigPart) -> tuple[float, ...]:
+        """Angle by which held nodes or a seated plate have turned, x, y and z [rad]."""
+        return self._of(part)[9 if isinstance(part, HeldNodes) else 6 :]
 
     def _of(self, part: RigPart) -> tuple[float, ...]:
         part = require_part("elastic: part", self.rig, part, RigPart)
@@ -130,8 +130,8 @@ class _Sum:
         self._solid, still = solid, solid.snapshot()
         self._still = {name: getattr(still, name) for name in SolidSnapshot.__dataclass_fields__}
         self.arrays, self.load = dict(self._still), 0.0
-        # force and displacement of each; of node sets moment and angle, too
-        self.plates = np.zeros((len(solid.solver.plates()), 6))
+        # force, displacement and angle of each; of node sets moment, too
+        self.plates = np.zeros((len(solid.solver.plates()), 9))
         self.node_sets = np.zeros((len(solid.solver.nodeSets()), 12))
 
     def add(self, found: Table, factor: float) -> None:
