@@ -112,6 +112,11 @@ TEST_CASE("Linear solutions let a seat of space turn as the steps do", "[solids]
         soft.drive(way, 400);
         CHECK(dot(soft.top().force, down) == Approx(0.5 * field.load * way).epsilon(1e-3));
         CHECK(norm(soft.moment()) < 1e-9 * force * a);
+        Seated begun(rigid, true);
+        set_machine(begun.s, 1, machine);
+        const SolidPartState half = elastic_part_state(begun.s, begun.parts, dt);
+        const Vector turn = (1.0 / half.way) * half.state.plates[1].turn;
+        CHECK(norm(turn - (1.0 / way) * soft.top().turn) < 1e-3 * norm(turn));
     }
 }
 
@@ -192,6 +197,9 @@ TEST_CASE("A seated plate of space lies on three contacts around its seat", "[so
                 least[k] = std::min(least[k], ways[k]);
         }
         CHECK(touching >= 3);
+        CHECK(std::count_if(p.opening.begin(), p.opening.end(), [](double o) { return o <= 0.0; })
+            == touching);
+        CHECK(dot(p.normal, p.position) < 0.0);
         CHECK(*std::max_element(least, least + 4) <= 0.0);
         SolidPatch fixed = patch;
         fixed.seated = false;
@@ -211,21 +219,30 @@ TEST_CASE("A seated plate of space asks for contacts around its middle", "[solid
 
 TEST_CASE("Contacts in a line leave a plate's other turn at rest", "[plate]")
 {
-    PlateStiffness springs;
-    springs.add(2.0, { 1.0, 3.0, -1.0 });
-    const Vector one = springs.moved_by({ 4.0, 12.0, -4.0 });
-    CHECK(dot(one, { 1.0, 3.0, -1.0 }) == Approx(2.0));
-    springs.add(5.0, { 1.0, -6.0, 2.0 });
-    const Vector two = springs.moved_by({ 0.0, 9.0, -3.0 });
-    CHECK(2.0 * dot(two, { 1.0, 3.0, -1.0 }) + 5.0 * dot(two, { 1.0, -6.0, 2.0 })
-        == Approx(0.0).margin(1e-12));
-    CHECK(two.z == 0.0);
-    springs.add(1.0, { 1.0, 0.0, 4.0 });
-    const Vector load { 1.0, -2.0, 3.0 }, all = springs.moved_by(load);
-    Vector back;
-    for (const auto& [k, opens] : { std::pair { 2.0, Vector { 1.0, 3.0, -1.0 } },
-             std::pair { 5.0, Vector { 1.0, -6.0, 2.0 } },
-             std::pair { 1.0, Vector { 1.0, 0.0, 4.0 } } })
-        back = back + k * dot(opens, all) * opens;
-    CHECK(norm(back - load) < 1e-12);
+    const auto balance = [](const std::vector<SoftContact>& springs, Vector load) {
+        PlateStiffness stiffness;
+        for (const SoftContact& c : springs)
+            stiffness.add(c.stiffness, c.opens);
+        const Vector motion = stiffness.moved_by(load);
+        for (const SoftContact& c : springs)
+            load = load - c.stiffness * dot(c.opens, motion) * c.opens;
+        return std::pair { motion, norm(load) };
+    };
+    const Vector one { 1.0, 3.0, -1.0 }, two { 1.0, -6.0, 2.0 }, aside { 1.0, 0.0, 4.0 };
+    CHECK(balance({ { 0.0, 2.0, one } }, 4.0 * one).second < 1e-12);
+    const auto [line, missing] = balance({ { 0.0, 2.0, one }, { 0.0, 5.0, two } }, one - two);
+    CHECK(missing < 1e-12);
+    CHECK(line.z == 0.0);
+    CHECK(line.y != 0.0);
+    // the second turn alone can bear what these ask for
+    const Vector near { 1.0, -1e-3, -1e-3 }, far { 1.0, -1e-3, 2e-3 };
+    CHECK(balance({ { 0.0, 1.0, near }, { 0.0, 1.0, far } }, near - far).second < 1e-12);
+    const auto three =
+        balance({ { 0.0, 2.0, one }, { 0.0, 5.0, two }, { 0.0, 1.0, aside } }, { 1.0, -2.0, 3.0 });
+    CHECK(three.second < 1e-12);
+    // a contact that lies beside one axis turns the plate about the other
+    for (const double beside : { 1e-6, 1e-9, 1e-15 }) {
+        const SoftPlate plate { 0.0, 0.0, false, { { -1e-8, 1.0, { 0.0, beside, 1e-3 } } } };
+        CHECK(norm(plate.least()) == Approx(1e-5));
+    }
 }

@@ -44,22 +44,28 @@ double PlateStiffness::determinant() const
         + xz_ * (xy_ * yz_ - yy_ * xz_);
 }
 
+/// Motion of a plate whose contacts leave a turn free, as they lie in a line or it has one alone:
+/// only the turn rests against which they are less stiff, once the give has taken its part, or
+/// both.
+Vector PlateStiffness::with_rest(Vector load) const
+{
+    const double y = xy_ / xx_, z = xz_ / xx_;
+    const double yy = yy_ - y * xy_, zz = zz_ - z * xz_;
+    const double none = singular * std::max(yy_, zz_);
+    Vector motion;
+    if (yy > zz && yy > none) motion.y = (load.y - y * load.x) / yy;
+    if (zz >= yy && zz > none) motion.z = (load.z - z * load.x) / zz;
+    motion.x = (load.x - xy_ * motion.y - xz_ * motion.z) / xx_;
+    return motion;
+}
+
 Vector PlateStiffness::moved_by(Vector load) const
 {
     PlateStiffness k = *this;
     for (double* own : { &k.xx_, &k.yy_, &k.zz_ })
         if (*own == 0.0) *own = 1.0;  // no spring and so no load there
-    const auto is_singular = [&] { return !(k.determinant() > singular * k.xx_ * k.yy_ * k.zz_); };
-    // contacts in a line, or one alone, leave a turn free, which then rests
-    if (is_singular()) {
-        k.xz_ = k.yz_ = load.z = 0.0;
-        k.zz_ = 1.0;
-    }
-    if (is_singular()) {
-        k.xy_ = load.y = 0.0;
-        k.yy_ = 1.0;
-    }
     const double whole = k.determinant();
+    if (!(whole > singular * k.xx_ * k.yy_ * k.zz_)) return k.with_rest(load);
     const double xx = k.yy_ * k.zz_ - k.yz_ * k.yz_, xy = k.xz_ * k.yz_ - k.xy_ * k.zz_,
                  xz = k.xy_ * k.yz_ - k.xz_ * k.yy_, yy = k.xx_ * k.zz_ - k.xz_ * k.xz_,
                  yz = k.xy_ * k.xz_ - k.xx_ * k.yz_, zz = k.xx_ * k.yy_ - k.xy_ * k.xy_;

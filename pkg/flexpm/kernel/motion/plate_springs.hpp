@@ -27,6 +27,7 @@ public:
 
 private:
     double determinant() const;
+    Vector with_rest(Vector load) const;
 
     double xx_ = 0.0, xy_ = 0.0, xz_ = 0.0, yy_ = 0.0, yz_ = 0.0, zz_ = 0.0;
 };

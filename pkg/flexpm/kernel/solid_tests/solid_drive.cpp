@@ -97,15 +97,15 @@ void start(SolidState& s, const SolidDrive& drive, const SolidField& field, doub
 {
     check(velocity, dt);
     check_finite("part of the field", part, "");
+    const double of_way = way_of_plate(s, drive, field);
     for (std::size_t i = 0; i < s.plates.size(); ++i) {
         Plate& plate = s.plates[i];
         const PlateMotion motion = field.of_plate(i);
         plate.displacement = {};
-        if (plate.loaded) plate.displacement = part * motion.way * plate.normal;
-        if (plate.seated) plate.turn = plate.turn + part * motion.turn;
+        if (plate.loaded) plate.displacement = of_way * part * motion.way * plate.normal;
+        if (plate.seated) plate.turn = plate.turn + of_way * part * motion.turn;
     }
     const Vector way = part * drive.length * drive.direction;
-    const double of_way = way_of_plate(s, drive, field);
     for (int number : drive.plates) {
         Plate& plate = s.plates[number];
         plate.displacement = of_way * way;

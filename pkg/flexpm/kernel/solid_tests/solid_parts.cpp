@@ -29,6 +29,8 @@ namespace {
 constexpr double facing = 0.5;
 /// Gap over the size of the box that is none: round-off [-].
 constexpr double no_gap = 1e-9;
+/// Largest slope of a face to a seated plate, whose turns are small.
+constexpr double steepest = 0.5;
 /// Looks at all contacts until a plate lies, for each of them: more are none that helps.
 constexpr std::size_t most_looks = 10;
 /// Strain at which all is linear, but no round-off, and such a part of the way to the first
@@ -237,11 +239,18 @@ void seat(Plate& p, const std::vector<Vector>& places)
     const double at_seat = height_at(on, {});
     p.turn = ((height_at(on, { reach, 0.0 }) - at_seat) / reach) * first
         + ((height_at(on, { 0.0, reach }) - at_seat) / reach) * second;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        p.gap[i] -= at_seat;
-        p.opening[i] = p.gap[i] - dot(seat_arm(p, static_cast<int>(i)), p.turn);
+    if (!(norm(p.turn) <= steepest)) {
+        refuse("slope of what is before a seated plate", norm(p.turn), "",
+            "must be <= " + number(steepest) + "; give another normal");
     }
-    p.position = p.position + at_seat * p.normal;
+    const double face = dot(p.normal, places.front()) - p.gap.front() + at_seat;
+    p.position = p.position + (face - dot(p.normal, p.position)) * p.normal;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const double turned = dot(seat_arm(p, static_cast<int>(i)), p.turn);
+        p.gap[i] -= at_seat;
+        if (std::fabs(p.gap[i] - turned) < no_gap * size) p.gap[i] = turned;  // it lies there
+        p.opening[i] = p.gap[i] - turned;
+    }
 }
 
 Plate plate_before(const SolidState& s, const SolidPatch& patch)

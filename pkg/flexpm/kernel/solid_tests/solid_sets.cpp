@@ -4,6 +4,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
+#include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include <algorithm>
@@ -115,7 +116,8 @@ void lead(SolidState& s, const NodeSet& set, double dt)
 
 bool lies_on(const SolidState& s, const NodeSet& set, const Plate& plate, std::size_t index)
 {
-    if (plate.gap[index] > 0.0 || !(plate.area[index] > 0.0)) return false;
+    const Vector arm = seat_arm(plate, static_cast<int>(index));
+    if (plate.gap[index] - dot(arm, plate.turn) > 0.0 || !(plate.area[index] > 0.0)) return false;
     const int triangle = plate.facets[index], grain = s.surface.grain[triangle];
     const auto holds = [&](int node) {
         return std::find(set.nodes.begin(), set.nodes.end(), node) != set.nodes.end();

@@ -187,6 +187,17 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
             self._asked("press", partial(self._solid.freePlate, plate))
         self.built.set_masses()
 
+    def _require_push(self, velocity: float) -> None:
+        """Refuse seats alone, too, on which a specimen tips over unless friction holds two."""
+        super()._require_push(velocity)
+        plates = self._solid.plates()
+        holds = any(not one["seated"] for one in plates) or self._solid.nodeSets()
+        if not holds and sum(one["friction"] > 0.0 for one in plates) < 2:
+            raise InputError(
+                "load: parts = all seated, must hold the specimen against tipping; lay one without "
+                "a seat, or give two friction"
+            )
+
     def _new_frame(self) -> wrapper.SolidPartFrame:
         return wrapper.SolidPartFrame()
 

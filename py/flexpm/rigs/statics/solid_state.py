@@ -52,7 +52,7 @@ class SolidElasticState(SolidSnapshot):
         return self._of(require_part("elastic: part", self.rig, part, HeldNodes))[6:9]
 
     def angle(self, part: RigPart) -> tuple[float, ...]:
-        """Angle by which held nodes or a seated plate have turned, x, y and z [rad]."""
+        """Angle of held nodes, or of a seated plate as `Part.angle` has it, x, y and z [rad]."""
         return self._of(part)[9 if isinstance(part, HeldNodes) else 6 :]
 
     def _of(self, part: RigPart) -> tuple[float, ...]:
@@ -131,7 +131,8 @@ class _Sum:
         self._still = {name: getattr(still, name) for name in SolidSnapshot.__dataclass_fields__}
         self.arrays, self.load = dict(self._still), 0.0
         # force, displacement and angle of each; of node sets moment, too
-        self.plates = np.zeros((len(solid.solver.plates()), 9))
+        self._laid = [[*np.zeros(6), *one["angle"]] for one in solid.solver.plates()]
+        self.plates = np.reshape(self._laid, (-1, 9)).astype(float)
         self.node_sets = np.zeros((len(solid.solver.nodeSets()), 12))
 
     def add(self, found: Table, factor: float) -> None:
@@ -140,7 +141,8 @@ class _Sum:
             grown = factor * (getattr(small, name) - self._still[name])
             self.arrays[name] = self.arrays[name] + grown
         self.load += factor * found["load"]
-        self.plates += factor * np.reshape(found["plates"], self.plates.shape)
+        plates = np.reshape(found["plates"], self.plates.shape)
+        self.plates += factor * (plates - np.reshape(self._laid, self.plates.shape))
         self.node_sets += factor * np.reshape(found["node_sets"], self.node_sets.shape)
 
 
