@@ -44,9 +44,6 @@ std::vector<HalfSpace> sector(Vector towards, double angle)
     return { { c * aside - sine * towards, 0.0 }, { -1.0 * (c * aside) - sine * towards, 0.0 } };
 }
 
-/// Least cosine between a plate's normal and that of a triangle, inwards, that may touch it.
-constexpr double facing = 0.5;
-
 /// A plate that touches the mantle where this reaches farthest against its normal.
 Plate touching_plate(const SolidState& s, SolidSide side)
 {
@@ -54,7 +51,7 @@ Plate touching_plate(const SolidState& s, SolidSide side)
     for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t) {
         if (s.surface.side[t] != static_cast<int>(SolidSide::mantle)) continue;
         const Vector outwards = area_vector(s, t);
-        if (-dot(p.normal, outwards) > facing * norm(outwards)) add_contact(s, p, t);
+        if (faces(p, outwards)) add_contact(s, p, t);
     }
     if (p.facets.empty())
         refuse("add_disc_plates: triangles before side " + std::to_string(p.side), 0.0, "",

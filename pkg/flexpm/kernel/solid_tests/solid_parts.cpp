@@ -25,8 +25,6 @@ namespace flexpm {
 
 namespace {
 
-/// Least cosine between a plate's normal and that of a triangle, inwards, that it may touch.
-constexpr double facing = 0.5;
 /// Gap over the size of the box that is none: round-off [-].
 constexpr double no_gap = 1e-9;
 /// Largest slope of a face to a seated plate, whose turns are small.
@@ -270,7 +268,7 @@ Plate plate_before(const SolidState& s, const SolidPatch& patch)
     const std::vector<HalfSpace> box = box_of(patch);
     for (int t = 0; t < static_cast<int>(s.surface.grain.size()); ++t) {
         const Vector outwards = area_vector(s, t);
-        if (!(-dot(p.normal, outwards) > facing * norm(outwards))) continue;
+        if (!faces(p, outwards)) continue;
         const Piece piece = piece_of(s, t, box);
         if (piece.share == 0.0) continue;
         add_touch(s, p, t, piece);

@@ -40,6 +40,12 @@ std::vector<Weights> kept_of(const std::vector<Weights>& polygon, Value value)
 
 }  // namespace
 
+bool faces(const Plate& plate, Vector outwards)
+{
+    constexpr double least = 0.5;
+    return -dot(plate.normal, outwards) > least * norm(outwards);
+}
+
 Piece piece_of(const SolidState& s, int triangle, const std::vector<HalfSpace>& within)
 {
     std::array<Vector, 3> corners;

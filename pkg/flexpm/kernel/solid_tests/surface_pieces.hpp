@@ -23,6 +23,10 @@ struct Piece {
     Vector place;                     ///< of the middle [m]
 };
 
+/// Whether a plate may touch a triangle: within 60 degrees it faces the plate's normal.
+/// @param outwards  any length along the triangle's normal
+bool faces(const Plate& plate, Vector outwards);
+
 /// Part of a surface triangle, at the reference, that lies in all of some half spaces.
 Piece piece_of(const SolidState& s, int triangle, const std::vector<HalfSpace>& within);
 
