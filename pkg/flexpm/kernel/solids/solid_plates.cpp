@@ -152,20 +152,10 @@ double work_of_step(const Plate& plate, Vector before, double dt)
 /// Whether the spring of a machine gives way behind a plate.
 bool gives(const Plate& plate) { return plate.machine_stiffness > 0.0 && !plate.loaded; }
 
-/// What the gap of a contact grows by as its plate follows: see PlateStiffness::add().
+/// What the gap of a contact grows by as its machine gives way and its seat turns.
 Vector opens(const Plate& plate, int index)
 {
-    const double give = gives(plate) ? dot(normal_at(plate, index), plate.normal) : 0.0;
-    const Vector arm = seat_arm(plate, index);
-    const auto [first, second] = seat_axes(plate.normal);
-    return { give, -dot(arm, first), -dot(arm, second) };
-}
-
-/// Turn by two angles on a seat.
-Vector turn_of(const Plate& plate, Vector motion)
-{
-    const auto [first, second] = seat_axes(plate.normal);
-    return motion.y * first + motion.z * second;
+    return opens(plate, index, gives(plate) ? dot(normal_at(plate, index), plate.normal) : 0.0);
 }
 
 /// A plate at the end of a step that begins at the present places of the grains.
@@ -322,6 +312,19 @@ Vector normal_at(const Plate& plate, int index)
 Vector seat_arm(const Plate& plate, int index)
 {
     return plate.seated ? axes_of(plate.arms, index) : Vector {};
+}
+
+Vector opens(const Plate& plate, int index, double give)
+{
+    const Vector arm = seat_arm(plate, index);
+    const auto [first, second] = seat_axes(plate.normal);
+    return { give, -dot(arm, first), -dot(arm, second) };
+}
+
+Vector turn_of(const Plate& plate, Vector motion)
+{
+    const auto [first, second] = seat_axes(plate.normal);
+    return motion.y * first + motion.z * second;
 }
 
 double sliding_stiffness(const Plate& plate, int index)

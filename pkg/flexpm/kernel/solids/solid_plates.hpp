@@ -96,7 +96,8 @@ struct PlateRates {
     Vector turn;        ///< on its seat [rad/s]
 };
 
-/// @param velocity  of all nodes
+/// Those of a plate as grains move.
+/// @param velocity  of all nodes [m/s]
 PlateRates rates_of(const SolidState& s, const Plate& plate, const Array<double>& velocity);
 
 /// Sum forces and works of all plates after the grains have moved by a step, and integrate the
@@ -106,6 +107,13 @@ void sum_plates(SolidState& s, double dt, double damping);
 /// What a seated plate's face goes along its normal at contact `index` by each component of a turn
 /// [m]; nought without a seat.
 Vector seat_arm(const Plate& plate, int index);
+
+/// What the gap of contact `index` grows by as its plate follows, see PlateStiffness::add().
+/// @param give  part of a give [-]
+Vector opens(const Plate& plate, int index, double give);
+
+/// Turn on a seat of a plate's motion, which are a give and angles about seat_axes() [rad].
+Vector turn_of(const Plate& plate, Vector motion);
 
 /// Area on which a plate presses [m^2].
 double pressed_area(const Plate& plate);

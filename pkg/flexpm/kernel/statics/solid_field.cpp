@@ -85,14 +85,6 @@ void add_faces(const SolidState& s, const NodeNumbers& numbers, LinearSolid& sol
     }
 }
 
-/// Growth of a contact's gap as its plate follows, see LinearSolid::Press::opens.
-Vector free_opening(const Plate& plate, int index)
-{
-    const Vector arm = seat_arm(plate, index);
-    const auto [first, second] = seat_axes(plate.normal);
-    return { plate.loaded ? 1.0 : 0.0, -dot(arm, first), -dot(arm, second) };
-}
-
 void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& solid)
 {
     for (int number = 0; number < static_cast<int>(s.plates.size()); ++number) {
@@ -105,8 +97,9 @@ void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& s
             const bool touches = plate.bonded || plate.opening[i] <= 0.0;
             const std::array<double, 3> shares = { corner_share(plate, i, 0),
                 corner_share(plate, i, 1), corner_share(plate, i, 2) };
-            solid.presses.push_back({ number, touches, nodes, shares, normal_at(plate, i),
-                point_stiffness(plate, i), sliding_stiffness(plate, i), free_opening(plate, i) });
+            solid.presses.push_back(
+                { number, touches, nodes, shares, normal_at(plate, i), point_stiffness(plate, i),
+                    sliding_stiffness(plate, i), opens(plate, i, plate.loaded ? 1.0 : 0.0) });
         }
     }
 }
@@ -185,10 +178,8 @@ std::vector<PlateMotion> plate_motions(
     const SolidState& s, const LinearSolid& solid, const SolidDrive& drive, const double* u)
 {
     std::vector<PlateMotion> found;
-    for (const Vector& m : motions_of(solid, drive, u)) {
-        const auto [first, second] = seat_axes(s.plates[found.size()].normal);
-        found.push_back({ -m.x, m.y * first + m.z * second });
-    }
+    for (const Vector& m : motions_of(solid, drive, u))
+        found.push_back({ -m.x, turn_of(s.plates[found.size()], m) });
     return found;
 }
 
