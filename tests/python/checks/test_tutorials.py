@@ -73,6 +73,38 @@ def test_envelope(package_parent, tmp_path):
 
 
 @pytest.mark.long
+def test_first_core(package_parent, tmp_path):
+    text = printed("first_core.py", package_parent, str(tmp_path))
+    solved, tested = map(float, re.search(r"E = ([\d.]+) .* ([\d.]+) GPa", text).groups())
+    assert tested == pytest.approx(solved, rel=0.02)
+    assert "status ok" in text
+    assert 0.3 < float(re.search(r"begin at ([\d.]+) of it", text)[1]) < 1.0
+    assert (tmp_path / "report.html").is_file()
+    assert (tmp_path / "outside.png").stat().st_size > 10000
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "pattern"), [("triaxial_envelope", "peak +"), ("true_triaxial", "strength ")]
+)
+def test_pressures_on_solids(package_parent, tmp_path, name, pattern):
+    text = printed(f"{name}.py", package_parent, str(tmp_path))
+    peaks = [float(peak) for peak in re.findall(rf"{pattern}([\d.]+) MPa", text)]
+    assert len(peaks) == 3
+    assert peaks == sorted(peaks)
+    assert Path(re.search(r"open (\S+)", text)[1]).is_file()
+
+
+@pytest.mark.long
+def test_own_spheres(package_parent, tmp_path):
+    text = printed("own_spheres.py", package_parent, str(tmp_path))
+    above, height = map(float, re.search(r"above (\d+) of (\d+) mm", text).groups())
+    assert above > 0.7 * height
+    assert "status ok" in text
+    assert (tmp_path / "outside.png").stat().st_size > 10000
+
+
+@pytest.mark.long
 def test_brazilian(package_parent, tmp_path):
     text = printed("brazilian.py", package_parent, str(tmp_path))
     direct, split = (float(peak) for peak in re.findall(r"([\d.]+) MPa", text))

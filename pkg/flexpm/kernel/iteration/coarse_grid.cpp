@@ -57,7 +57,7 @@ struct CoarseGrid::Factors {
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> of;
 };
 
-CoarseGrid::CoarseGrid(const std::vector<Vector>& places) : places_(&places), edge_(1.0)
+CoarseGrid::CoarseGrid(const std::vector<Vector>& places) : edge_(1.0)
 {
     if (places.empty()) return;
     Vector high = low_ = places.front();
@@ -75,6 +75,9 @@ CoarseGrid::CoarseGrid(const std::vector<Vector>& places) : places_(&places), ed
         count *= bricks_[axis];
     }
     stiffness_.assign(count * size * size, 0.0);
+    seats_.reserve(places.size());
+    for (Vector p : places)
+        seats_.push_back(seat(p));
 }
 
 CoarseGrid::Seat CoarseGrid::seat(Vector place) const
@@ -172,9 +175,11 @@ void CoarseGrid::add_motion(
     if (!factors_) return;
     Numbers loads = Numbers::Zero(unknowns());
     const auto for_each_share = [&](auto give) {
-        for (std::size_t n = 0; n < places_->size(); ++n) {
-            const Seat at = seat((*places_)[n]);
-            const auto on = vertices(at.brick);
+        int brick = -1;
+        std::array<int, corners> on {};
+        for (std::size_t n = 0; n < seats_.size(); ++n) {
+            const Seat& at = seats_[n];
+            if (at.brick != brick) on = vertices(brick = at.brick);  // most nodes follow neighbours
             const auto weights = weights_at(at.from_low);
             for (int k = 0; k < corners; ++k)
                 for (int axis = 0; axis < 3; ++axis)

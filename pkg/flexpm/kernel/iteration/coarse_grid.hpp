@@ -17,8 +17,7 @@ class CoarseGrid {
 public:
     /// Cubes over the nodes, a few grains wide; wider where a solid has very many.
     ///
-    /// @param places  of the nodes, whose displacements are the unknowns [m]; they must outlive
-    ///         the grid
+    /// @param places  of the nodes, whose displacements are the unknowns [m]
     explicit CoarseGrid(const std::vector<Vector>& places);
 
     /// Add an elastic volume there, a small part of a brick [m^3].
@@ -42,10 +41,10 @@ private:
     };
     struct Factors;
 
-    const std::vector<Vector>* places_;
     Vector low_;
     double edge_;
     std::array<int, 3> bricks_ {};            ///< along x, y, z
+    std::vector<Seat> seats_;                 ///< of the nodes
     std::vector<double> stiffness_;           ///< of each brick: 24 x 24
     std::shared_ptr<const Factors> factors_;  ///< of the whole grid
 
