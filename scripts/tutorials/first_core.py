@@ -10,7 +10,7 @@ import flexpm
 
 folder = sys.argv[1] if len(sys.argv) > 1 else "first-core"
 
-# 1. Grains of 3 mm in a core of 15 mm x 30 mm: as small as it may be.
+# 1. Grains of 3 mm in a core of 15 mm x 30 mm: few, of which the page warns.
 core = flexpm.Specimen.cylinder(0.015, 0.030, seed=1)
 print(f"{core.statistics()['grains']} grains")
 

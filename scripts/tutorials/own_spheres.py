@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 15: own spheres. Grains that grow coarser from the bottom to the top of a box.
+"""Tutorial 12: own spheres. Grains that grow coarser from the bottom to the top of a box.
 
 PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/own_spheres.py [FOLDER]
 """
@@ -32,7 +32,7 @@ spheres = spheres[spheres[:, 2] < height]
 box = flexpm.Specimen.from_spheres(spheres, width=width, depth=width, height=height)
 print(f"{len(box.radii)} grains")
 
-# 3. Pulled, it breaks where fewer contacts share the load.
+# 3. Pulled, it breaks among the coarse grains.
 result = flexpm.run("tension", box, "augig3d-calibrated", out=folder)
 heights = np.array([crack.z for crack in result.cracks])
 print(f"strength {result.peak_stress / 1e6:.2f} MPa, status {result.status}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 13: a triaxial envelope. One core under three pressures on its mantle.
+"""Tutorial 12: a triaxial envelope. One core under three pressures on its mantle.
 
 PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/triaxial_envelope.py [FOLDER]
 """
@@ -12,7 +12,10 @@ folder = sys.argv[1] if len(sys.argv) > 1 else "triaxial-envelope"
 
 core = flexpm.Specimen.cylinder(0.015, 0.030, seed=1)
 found = flexpm.compare(
-    *("triaxial", core, ["flexible"], "augig3d-calibrated"),
+    "triaxial",
+    core,
+    ["flexible"],
+    "augig3d-calibrated",
     confinements=[0.0, 2e6, 4e6],
     stop_ratio=0.9,
     out=folder,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 14: true triaxial. A box under two pressures on its sides, of which one grows.
+"""Tutorial 12: true triaxial. A box under two pressures on its sides, of which one grows.
 
 PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/true_triaxial.py [FOLDER]
 """
@@ -14,7 +14,9 @@ folder = Path(sys.argv[1] if len(sys.argv) > 1 else "true-triaxial")
 box = flexpm.Specimen.box(width=0.012, depth=0.012, height=0.024, seed=1)
 for second in (4e6, 8e6, 12e6):
     result = flexpm.run(
-        *("triaxial", box, "augig3d-calibrated"),
+        "triaxial",
+        box,
+        "augig3d-calibrated",
         confinement=4e6,  # on the sides across x
         second_confinement=second,  # on front and back, across y
         stop_ratio=0.9,
