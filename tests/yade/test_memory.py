@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Memory: half a million steps take none, and a reset leaves nothing of grains behind."""
+"""Memory: half a million steps take none, a reset leaves nothing, a result takes one state."""
 
 from __future__ import annotations
 
@@ -7,6 +7,9 @@ import subprocess
 import sys
 
 import pytest
+
+import flexpm
+from flexpm.models.grains import SolidModel
 
 COMMON = """
 import flexpm, yade
@@ -84,3 +87,20 @@ def test_build_and_reset_leave_a_tenth_of_what_as_many_spheres_do():
     """
     grains, spheres = numbers(CYCLES)
     assert grains <= 0.1 * spheres
+
+
+def test_a_result_takes_the_state_of_a_solid_once(monkeypatch):
+    """A core of 304 000 grains has one of 3.4 GB."""
+    taken = []
+    snapshot = SolidModel.snapshot
+
+    def noted(built):
+        taken.append(snapshot(built))
+        return taken[-1]
+
+    monkeypatch.setattr(SolidModel, "snapshot", noted)
+    box = flexpm.Specimen.box(0.008, 0.008, 0.012)
+    result = flexpm.run("tension", box, rate=20.0)
+    (state,) = taken
+    assert result.snapshot is state
+    assert result.largest_parting == state.parting / box.mean_diameter > 0.0

@@ -51,7 +51,9 @@ class Asked:
             InputError: for one out of range.
         """
         value = self.values.get(name)
-        return require_number(f"run: {name}", usual if value is None else value, bounds, unit)
+        if value is None:
+            return require_number(f"run: default {name}", usual, bounds, unit)
+        return require_number(f"run: {name}", value, bounds, unit)
 
     def word(self, name: str, choices: tuple[str, ...]) -> str:
         """One of a few words, the first if none is given.

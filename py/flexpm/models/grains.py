@@ -172,12 +172,14 @@ class Model:
         """Name and parameters of the material, of minerals also the area that they have."""
         return mineral_map.describe(self.specimen, self.material, self.name, self.minerals)
 
-    @property
-    def parting(self) -> tuple[int | None, float]:
+    def parting(self, state: Snapshot | SolidSnapshot) -> tuple[int | None, float]:
         """Loose grains, and how far any has parted from a neighbour, see `GrainSolver.parting`.
 
-        The second is the growth of a distance of centres, in mean diameters of the grains [-].
+        The second is the growth of a distance of centres, in mean diameters of the grains [-]. The
+        present state is given by who has it: that of a large solid takes gigabytes.
         """
+        if isinstance(state, SolidSnapshot):  # its contacts never end: what is loose is not known
+            return None, state.parting / self.specimen.mean_diameter
         found = self.solver.parting()
         return found["loose"], found["any"] / self.specimen.mean_diameter
 
@@ -207,16 +209,6 @@ class SolidModel(Model):
     def state_of(self, found: Table) -> SolidSnapshot:
         """A state of this solid, from its arrays."""
         return snapshot_of(found, self.of_snapshots["stress_source"], self.minerals)
-
-    @property
-    def parting(self) -> tuple[int | None, float]:
-        """How far any grain has parted from a neighbour, see ``Model.parting``.
-
-        Contacts of solids never end, so that what is loose is not known.
-        """
-        state = self.snapshot()
-        assert isinstance(state, SolidSnapshot)
-        return None, state.parting / self.specimen.mean_diameter
 
 
 def _build_solid(

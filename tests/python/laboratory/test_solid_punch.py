@@ -76,6 +76,8 @@ def test_threads_and_a_stop_change_no_bit(block, model, pressure, tmp_path, monk
         (["--depth", "0.008", "--thickness", "0.01"], "thickness = 0.01 m, must not be"),
         (["--depth", "0.008", "--model", "cohfrict"], "must be one of flexible, rigid"),
         (["--depth", "0.008", "--notch", "0.019"], "notch = 0.019 m, must be"),
+        (["--depth", "0.008", "--height", "0.013"], "default notch = 0.0026 m, must be < 0.0005"),
+        (["--depth", "0.008", "--height", "0.009"], "height = 0.009 m, must be > 0.012"),
         (
             ["--depth", "0.008", "--notch", "0.0001", "--distance", "0.011"],
             "ends within the first grains",

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ...require import NOT_NEGATIVE, Bounds
+from ...require import NOT_NEGATIVE, Bounds, require_number
 from .. import slid
 from ..layout import LEFT, RIGHT, Frame, Layout, Lines, Plate
 from ..model_names import BLOCK_MODELS
@@ -31,7 +31,9 @@ _SLOT = {"open": True, "friction": 0.0, "normal_stiffness": 1e6, "shear_stiffnes
 def _settle(asked: Asked) -> Mapping[str, Value]:
     width, height = asked.sizes["width"], asked.sizes["height"]
     grain = asked.diameter or 0.0
-    deepest = 0.5 * (height - _FEWEST_GRAINS * grain)
+    bridge = _FEWEST_GRAINS * grain
+    require_number("run: height", height, Bounds(above=bridge), "m")
+    deepest = 0.5 * (height - bridge)
     notch = asked.number("notch", _NOTCH * height, Bounds(at_least=0.0, below=deepest))
     apart = _LEAST_DISTANCE * grain
     bounds = Bounds(above=apart, below=width - 2.0 * apart)

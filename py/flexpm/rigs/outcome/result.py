@@ -73,7 +73,7 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
         cuts = built.specimen.told_cuts.items()
         result.joint_cuts = {name: cut.to_json() for name, cut in cuts} or None
         result.networks = built.specimen.network_intensities() or None
-        result.loose_grains, result.largest_parting = built.parting
+        result.loose_grains, result.largest_parting = built.parting(snapshot)
     return result
 
 
