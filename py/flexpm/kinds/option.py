@@ -52,7 +52,7 @@ class Asked:
         """
         value = self.values.get(name)
         if value is None:
-            return require_number(f"run: default {name}", usual, bounds, unit)
+            return require_number(f"run: default {name}", usual, bounds, unit, f"{usual:g}")
         return require_number(f"run: {name}", value, bounds, unit)
 
     def word(self, name: str, choices: tuple[str, ...]) -> str:

@@ -21,6 +21,7 @@ from ..models.options import (
 )
 from ..require import (
     Bounds,
+    quoted,
     require_flag,
     require_known,
     require_number,
@@ -51,6 +52,8 @@ def settle(run: RunInputs) -> None:
     if run.kind.dynamic:
         _set(run, "dynamic", True)
     _check_numbers(run)
+    if run.is_solid:
+        _check_solid(run)
     check_options(
         run.model,
         points=run.points,
@@ -101,6 +104,11 @@ def _check_numbers(run: RunInputs) -> None:
         _set(run, "max_strain", largest)
     bounds = Bounds(above=0.0, at_most=LARGEST_STOP_RATIO)
     _set(run, "stop_ratio", require_number("run: stop_ratio", run.stop_ratio, bounds))
+    if isinstance(run.confinement, list | tuple):  # as the command takes them
+        raise InputError(
+            f"run: confinement = {quoted(run.confinement)} Pa, must be one number; that across y "
+            "of a box is second_confinement"
+        )
     confinement = require_number("run: confinement", run.confinement, _PRESSURE, "Pa")
     _set(run, "confinement", confinement)
     gravity = require_number("run: gravity", run.gravity, _GRAVITY, "m/s2")
@@ -152,9 +160,6 @@ def _check_waiting(run: RunInputs) -> None:
 
 
 def _check_test(run: RunInputs) -> None:
-    if run.is_solid:
-        require_shape(run.kind, run.specimen.kind)
-    _check_solid(run)
     label = "run: model" if run.kind.is_solve else f"run: model of {run.test}"
     require_one_of(label, run.model, run.kind.models_of(run.specimen.kind))
     if run.model in SPHERE_MODELS:
@@ -188,9 +193,8 @@ def require_shape(kind: TestKind, shape: str) -> None:
 
 
 def _check_solid(run: RunInputs) -> None:
-    """Refuse what is of the plane alone."""
-    if not run.is_solid:
-        return
+    """Refuse tests and options that are of the plane alone."""
+    require_shape(run.kind, run.specimen.kind)
     for name in OF_THE_PLANE[1:]:
         value, usual = getattr(run, name), getattr(type(run), name, None)
         if name == "dynamic" and run.kind.dynamic:
