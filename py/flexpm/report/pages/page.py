@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import base64
 import io
+import zlib
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -186,16 +187,22 @@ def write(path: Path, page: Page) -> None:
         "views": [asdict(view) for view in views],
     }
     there = views and all(file.exists() for file in TURNING)
+    scripts = ("page", *(("three_licence",) if there else ()), *(("solid",) if views else ()))
     text = rendered(
         "page.html",
         page=page,
         drawn=drawn,
         library=CHARTS.read_text(encoding="utf-8") if page.charts and CHARTS.exists() else "",
         style=(_TEMPLATES / "page.css").read_text(encoding="utf-8"),
-        turning=_joined(_TEMPLATES / "three_licence.js", *TURNING) if there else "",
-        script=_joined(_TEMPLATES / "page.js", *([_TEMPLATES / "solid.js"] if views else [])),
+        turning=deflated(_joined(*TURNING).encode()) if there else "",
+        script=_joined(*(_TEMPLATES / f"{name}.js" for name in scripts)),
     )
     write_text(path, text)
+
+
+def deflated(content: bytes) -> str:
+    """Bytes for the page's script to inflate, in base64."""
+    return base64.b64encode(zlib.compress(content, 9)).decode()
 
 
 def _joined(*scripts: Path) -> str:

@@ -7,8 +7,6 @@ script has the same order. Cracks come from cracks.csv, stresses from final.vtu.
 
 from __future__ import annotations
 
-import base64
-import zlib
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -18,7 +16,7 @@ from ...arrays import FloatArray, IntArray
 from ...results.cracks import AnyCrack
 from ...results.solids.state import SolidSnapshot
 from ..style import colour_limits
-from .page import View
+from .page import View, deflated
 
 #: Steps of a coordinate over the longest side: 0.01 mm of a core of 100 mm.
 _STEPS = 10_000
@@ -96,7 +94,7 @@ def solid_view(
         },
         size=[float(f"{1e3 * side:.6g}") for side in span],
         stress=[float(f"{1e-6 * one:.4g}") for one in limits],
-        data=base64.b64encode(zlib.compress(b"".join(arrays), 9)).decode(),
+        data=deflated(b"".join(arrays)),
         note=note,
     )
 

@@ -187,15 +187,25 @@ class SolidView {
     draw() { this.renderer.render(this.scene, this.camera); }
 }
 
+// The library stands in the page deflated, a third of its size.
+async function load() {
+    const script = document.createElement("script");
+    script.textContent = new TextDecoder().decode(await inflated(document.getElementById("three").textContent));
+    document.head.append(script);
+}
+
 const views = {};
+let loading;
 async function turn(view) {
     const missing = document.getElementById(`${view.name}-missing`);
     const say = (why) => { missing.textContent = `${why}: see the pictures below.`; missing.hidden = false; };
-    if (!window.THREE) return say("No view that turns, as libjs-three was not installed when this page was made");
+    if (!document.getElementById("three")) return say("No view that turns, as libjs-three was not installed when this page was made");
     if (!window.DecompressionStream) return say("No view that turns, as this browser cannot inflate its arrays");
     const test = document.createElement("canvas");
     if (!(test.getContext("webgl") || test.getContext("experimental-webgl"))) return say("No view that turns, as this browser has no WebGL");
     document.getElementById(`${view.name}-shown`).hidden = false;
+    loading = loading || load();
+    await loading;
     views[view.name] = new SolidView(view, arraysOf(view, await inflated(view.data)));
 }
 drawn.views.forEach(turn);
