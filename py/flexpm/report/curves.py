@@ -6,7 +6,9 @@ Input in SI units; labels in MPa and %, µs and µm/s.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib import rc_context
@@ -15,7 +17,9 @@ from matplotlib.figure import Figure
 
 from ..arrays import FloatArray
 from ..files import remove_earlier
-from ..results import measures, waves
+from ..kinds.registry import kind_of
+from ..materials.keys import is_used
+from ..results import core, measures, waves
 from ..results.cracks import SHEAR, TENSILE
 from ..results.record import Curve
 from ..results.result import Result
@@ -33,6 +37,23 @@ _LARGEST = 1e30
 
 #: Share of the width near an axis in which the peak's label stands on the inner side of the peak.
 _MARGIN = 0.12
+
+
+class VolumeLine(NamedTuple):
+    """A volumetric strain up to the peak."""
+
+    label: str
+    strain: FloatArray  #: [-]
+    mark: int | None = None  #: row of the stress that is read off it
+    dashed: bool = False
+
+
+class Volumes(NamedTuple):
+    """Volumetric strains of a core up to its peak: total, elastic, of cracks."""
+
+    name: str
+    title: str
+    lines: Sequence[VolumeLine]
 
 
 def fits_a_picture(record: Curve) -> bool:
@@ -60,18 +81,63 @@ def places_of(result: Result, strain: float | FloatArray) -> FloatArray:
     return np.interp(strain, result.curve["axial_strain"], axis.of(result.curve))
 
 
+def volumes_of(result: Result) -> Volumes | None:
+    """Volumetric strains of a core, of the plane those of area; None where there are none.
+
+    Without a peak and moduli there is the total alone.
+    """
+    record, solid = result.curve, result.tetrahedra is not None
+    if not kind_of(result.test).is_core or not len(record):
+        return None
+    peak = measures.peak_row(record)
+    end = len(record) if peak is None else peak + 1
+    total = core.volumetric_strain(record, solid=solid)[:end]
+    if not np.all(np.abs(total) < _LARGEST):
+        return None
+    deviator = measures.differential_stress(record)[:end]
+
+    def line(label: str, strain: FloatArray, stress: float | None, read: str) -> VolumeLine:
+        if stress is None:
+            return VolumeLine(label, strain)
+        return VolumeLine(f"{label}, {read}", strain, int(np.argmin(np.abs(deviator - stress))))
+
+    damage, begun = "at its largest: crack damage", "at its point: crack initiation"
+    lines = [line("total", total, result.crack_damage_stress, damage)]
+    modulus, ratio = result.youngs_modulus, result.poissons_ratio
+    if peak is not None and modulus is not None and ratio is not None:
+        elastic = core.elastic_volumetric_strain(record, modulus, ratio, solid=solid)[:end]
+        initiation = result.crack_initiation_stress_volumetric
+        lines.append(VolumeLine("of elasticity", elastic, dashed=True))
+        lines.append(line("of cracks", total - elastic, initiation, begun))
+    name = "volumetric strain" if solid else "strain of area"
+    told = "" if peak is None else " up to the peak"
+    return Volumes(name, f"{name.capitalize()}{told}{_state(result)}", lines)
+
+
+def _state(result: Result) -> str:
+    """Plane stress or strain of E and nu; empty for a solid and for grains without triangles."""
+    if result.tetrahedra is not None or not is_used("plane", result.model):
+        return ""
+    state = result.material.get("plane")
+    return f", plane {state}" if state else ""
+
+
 def curve_picture(path: Path | str, result: Result) -> None:
     """Draw stress and crack counts over strain, the line of Young's modulus, and the peak.
 
-    A record with numbers beyond sense, of a run that has diverged, is not drawn.
+    A core has its volumetric strains below. A record with numbers beyond sense, of a run that has
+    diverged, is not drawn.
     """
     if not fits_a_picture(result.curve):
         remove_earlier(path)
         return
     with rc_context(STYLE):
-        figure = Figure(figsize=(5.6, 4.3), layout="constrained")
-        axes = figure.add_subplot()
         record, names = result.curve, words_of_result(result)
+        volumes = volumes_of(result)
+        rows, heights = (1, [4.3]) if volumes is None else (2, [4.0, 2.5])
+        figure = Figure(figsize=(5.6, sum(heights)), layout="constrained")
+        panels = figure.subplots(rows, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
+        axes, lowest = panels[0], panels[-1]
         counts = axes.twinx()
         _draw_counts(counts, names.x.of(record), record)
         axes.set_zorder(counts.get_zorder() + 1)  # the curve lies over the counts
@@ -79,15 +145,18 @@ def curve_picture(path: Path | str, result: Result) -> None:
         (line,) = axes.plot(names.x.of(record), names.y.of(record), color="black", lw=1.6)
         line.set_label(names.y.name)
         _draw_modulus(axes, result)
-        axes.set_xlabel(names.x.label)
+        lowest.set_xlabel(names.x.label)
         axes.set_ylabel(names.y.label)
         axes.set_xlim(left=0.0)
+        if volumes is not None:
+            _draw_volumes(lowest, names.x.of(record), volumes)
         _draw_peak(axes, result)
         axes.set_ylim(bottom=0.0, top=1.18 * axes.get_ylim()[1])  # room for the peak's label
         handles = [*axes.get_legend_handles_labels()[0], *counts.get_legend_handles_labels()[0]]
         # below the axes, where it covers neither the curve nor the peak's label
+        under = (0.5, -0.16 if volumes is None else -0.06)
         axes.legend(
-            handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncol=2, frameon=False
+            handles=handles, loc="upper center", bbox_to_anchor=under, ncol=2, frameon=False
         )
         axes.set_title(_caption(result), fontsize=9.5, loc="left")
         save(figure, path)
@@ -99,6 +168,21 @@ def _draw_counts(axes: Axes, strain: FloatArray, record: Curve) -> None:
     axes.set_ylabel("cracked contact points [-]")
     axes.set_ylim(bottom=0.0, top=max(1.0, 1.18 * axes.get_ylim()[1]))
     axes.spines["right"].set_visible(True)
+
+
+def _draw_volumes(axes: Axes, strain: FloatArray, volumes: Volumes) -> None:
+    colours = ("black", "0.45", CYCLE[2])
+    axes.axhline(0.0, color="0.8", lw=0.8)
+    for line, colour in zip(volumes.lines, colours, strict=False):
+        over, values = strain[: len(line.strain)], 100.0 * line.strain
+        dash = (0, (5, 3)) if line.dashed else "-"
+        axes.plot(over, values, color=colour, ls=dash, lw=1.4, label=line.label)
+        if line.mark is not None:
+            place = over[line.mark], values[line.mark]
+            axes.plot(*place, "o", ms=5.0, mfc="white", mec=colour, mew=1.2)
+    axes.set_ylabel(f"{volumes.name} [%]")
+    axes.set_title(volumes.title, fontsize=9.5, loc="left")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.28), ncol=2, frameon=False)
 
 
 def _draw_modulus(axes: Axes, result: Result) -> None:

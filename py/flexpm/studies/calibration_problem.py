@@ -46,10 +46,10 @@ _TOLD = {
     name: (test, key) for test in (ELASTIC, *TESTS) for name, key in KINDS[test].calibrates.items()
 }
 #: Quotients of two of them.
-_QUOTIENTS = {"direct_indirect_ratio": ("direct_tensile_strength", "indirect_tensile_strength")}
+QUOTIENTS = {"direct_indirect_ratio": ("direct_tensile_strength", "indirect_tensile_strength")}
 MEASURES: dict[str, tuple[str, ...]] = {
     **{name: (test,) for name, (test, _) in _TOLD.items()},
-    **{name: tuple(_TOLD[one][0] for one in both) for name, both in _QUOTIENTS.items()},
+    **{name: tuple(_TOLD[one][0] for one in both) for name, both in QUOTIENTS.items()},
     "cohesion": ("envelope",),
     "friction_angle": ("envelope",),
     "hoek_brown_strength": ("envelope",),
@@ -166,8 +166,8 @@ class Calibration:
         """A measure of one packing, from its results by (test, confinement); None if missing."""
         if target.name in _TOLD:
             return _told(target.name, found)
-        if target.name in _QUOTIENTS:
-            both = [_told(name, found) for name in _QUOTIENTS[target.name]]
+        if target.name in QUOTIENTS:
+            both = [_told(name, found) for name in QUOTIENTS[target.name]]
             return strength.tensile_ratio(*both)
         peaks = [found[test].get("peak_stress") for test in self.tests(target)]
         known = [peak for peak in peaks if peak is not None]

@@ -15,9 +15,10 @@ from ..materials.keys import elastic_set_name
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..report.style import drawing
+from ..results.strength import tensile_ratio
 from ..text import label_of, words_of
-from .calibration_problem import ELASTIC_MEASURES, MEASURES, Calibration, key_of
-from .calibration_search import Outcome
+from .calibration_problem import ELASTIC_MEASURES, MEASURES, QUOTIENTS, Calibration, key_of
+from .calibration_search import Evaluation, Outcome
 
 #: Digits of the values in a preset.
 _DIGITS = 4
@@ -30,10 +31,15 @@ _UNITS = {
     "hoek_brown_m": (1.0, ""),
     "direct_indirect_ratio": (1.0, ""),
 }
+#: Direct over indirect tension that granites show [-], as the record has it.
+_GRANITES = 0.77
 
 
 def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
-    """Name and text of each target: result, spread, error of the mean, target, met or not."""
+    """Name and text of each target: result, spread, error of the mean, target, met or not.
+
+    Where both strengths in tension are targets their ratio follows, beside what granites show.
+    """
     rows = []
     for target in plan.targets:
         usual = (1e-6, "MPa") if target.name in MEASURES else (1.0, "")
@@ -48,7 +54,21 @@ def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
         # a run gives another Poisson's ratio where points soften early
         kind = "elastic " if target.name in ELASTIC_MEASURES else ""
         rows.append((f"{kind}{words_of(target.name)}", f"{text}, target {wanted}: {verdict}"))
+    ratio = _tensile_ratio(outcome.best)
+    if ratio is not None:
+        rows.append(("direct over indirect tension", f"{ratio:.2f}; granites {_GRANITES:.2f}"))
     return rows
+
+
+def _tensile_ratio(best: Evaluation) -> float | None:
+    """Direct over indirect tension of the means [-]; None unless both are targets.
+
+    It is no target here, so that it says what the fit has left open.
+    """
+    names = QUOTIENTS["direct_indirect_ratio"]
+    if "direct_indirect_ratio" in best.measures or not best.measures.keys() >= set(names):
+        return None
+    return tensile_ratio(*map(best.mean, names))
 
 
 def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcome) -> Material:

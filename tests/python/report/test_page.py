@@ -23,6 +23,7 @@ from flexpm.errors import InputError
 from flexpm.materials.material import load
 from flexpm.report.emission import emission_picture
 from flexpm.report.pages import page, page_map, page_run, statuses
+from flexpm.report.pages.page_core import volume_chart
 from flexpm.results.emission import EventRule, find_events
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_vtu
@@ -94,6 +95,20 @@ def test_a_page_says_what_was_asked_and_what_came_out(ended):
     assert "flexpm rerun result.json" in text
     assert "10.3390/geotechnics2030026" in text
     assert "thickness = 10, is unusual" in text
+
+
+def test_the_strain_of_area_names_its_state(ended, tmp_path):
+    """Grains without triangles and solids have none."""
+    command = ["run", "uniaxial", *SIZE, "--rate", "20", "--quiet", "--out", str(tmp_path)]
+    assert cli.main([*command, "--set", "plane=strain"]) in (0, 3)
+    for folder, state, other in ((ended, "stress", "strain"), (tmp_path, "strain", "stress")):
+        text = (folder / page.FILE).read_text(encoding="utf-8")
+        assert f"Strain of area up to the peak, plane {state}" in text
+        assert f"plane {other}" not in text
+    result = Result.read(ended)
+    for changed in ({"model": "rigid"}, {"tetrahedra": 10}):
+        title = volume_chart(dataclasses.replace(result, **changed)).title
+        assert title.endswith("up to the peak")
 
 
 def test_a_page_is_the_same_when_made_again_and_needs_no_yade(ended, package_parent):

@@ -199,6 +199,37 @@ def test_axes_are_named_in_the_words_of_the_test(test, strain, tmp_path, monkeyp
     assert strain in labels
 
 
+def test_a_core_has_its_volumetric_strain_below_the_stress(tmp_path, monkeypatch):
+    """E of 100 GPa and nu of 0.2: the area shrinks by 0.8 of the axial strain, none by cracks."""
+    figures = []
+    monkeypatch.setattr(curves, "save", lambda figure, _: figures.append(figure))
+    made = result_with_peak([*np.linspace(0.0, 40e6, 41), 30e6, 10e6])
+    record = Curve.from_array(made.curve.array.copy())
+    record["lateral_strain"][:] = 0.2 * record["axial_strain"]
+    core = dataclasses.replace(made, curve=record, youngs_modulus=1e11, poissons_ratio=0.2)
+    for result in (core, dataclasses.replace(core, test="bending")):
+        curves.curve_picture(tmp_path / "curve.png", result)
+    with_volume, without = figures
+    assert len(without.axes) == 2  # stress and numbers of cracks
+    stress, below = with_volume.axes[:2]
+    assert below.get_ylabel() == "strain of area [%]"
+    assert below.get_xlabel() == "axial strain [%]"
+    assert below.get_xlim() == stress.get_xlim()
+    total, elastic, cracks = (line for line in below.lines if len(line.get_xdata()) == 41)
+    assert total.get_ydata() == pytest.approx(0.8 * total.get_xdata())
+    assert elastic.get_ydata() == pytest.approx(0.8 * total.get_xdata())
+    assert cracks.get_ydata() == pytest.approx(np.zeros(41), abs=1e-12)
+
+
+def test_a_core_without_moduli_or_a_peak_has_the_total_alone(tmp_path):
+    found = curves.volumes_of(result_with_peak(np.linspace(0.0, 40e6, 41)))
+    assert [line.label for line in found.lines] == ["total"]
+    assert found.title == "Strain of area"
+    curves.curve_picture(tmp_path / "curve.png", result_with_peak([0.0, 1e6]))
+    nowhere = Curve.from_array(np.full((3, len(COLUMNS)), np.nan))
+    assert curves.volumes_of(dataclasses.replace(result_with_peak([0.0]), curve=nowhere)) is None
+
+
 def test_a_shear_test_is_drawn_over_its_displacement(tmp_path, monkeypatch):
     """Its line, its peak and places of its strains, which are a hundred times as large in µm."""
     drawn = []

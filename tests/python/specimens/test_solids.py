@@ -54,6 +54,20 @@ def test_a_seed_gives_the_same_bits(box):
     assert not np.array_equal(Specimen.box(0.012, 0.013, 0.018).spheres, box.spheres)
 
 
+@pytest.mark.parametrize(
+    ("name", "sizes"),
+    [
+        ("box", (0.012, 0.013, 0.018)),
+        ("cylinder", (0.014, 0.02)),
+        ("solid_disc", (0.03, 0.015)),
+        ("solid_half_disc", (0.03, 0.015)),
+    ],
+)
+def test_holes_are_of_the_plane(name, sizes):
+    with pytest.raises(InputError, match=r"^Specimen[^\n]*holes = [^\n]* of the plane[^\n]*$"):
+        getattr(Specimen, name)(*sizes, holes=[[(0.004, 0.004), (0.006, 0.004), (0.005, 0.006)]])
+
+
 def test_a_file_reads_back_to_the_same_bits(cylinder, tmp_path):
     cylinder.save(tmp_path / "solid.json")
     again = Specimen.load_solid(tmp_path / "solid.json")

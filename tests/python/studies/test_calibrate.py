@@ -157,6 +157,28 @@ def test_the_search_meets_targets_on_the_full_specimen(tmp_path, monkeypatch):
     assert (tmp_path / "known.png").stat().st_size > 10_000
 
 
+def test_both_strengths_in_tension_are_told_with_their_ratio(tmp_path):
+    """6.3 over 9 MPa is 0.7; it is told as a target where it is one, and of one strength not."""
+    both = "direct_tensile_strength = 6e6\nindirect_tensile_strength = 9e6"
+    ratio = both + "\ndirect_indirect_ratio = 0.8"
+    found = {
+        "compressive_strength": [120e6, 121e6],
+        "direct_tensile_strength": [6.2e6, 6.4e6],
+        "indirect_tensile_strength": [9e6],
+        "direct_indirect_ratio": [0.7],
+    }
+    told = []
+    for targets in ("direct_tensile_strength = 6e6", both, ratio):
+        plan = plan_of(tmp_path, GOOD.replace("direct_tensile_strength = 6e6", targets))
+        measures = {target.name: found[target.name] for target in plan.targets}
+        best = calibration_search.Evaluation(1, "verify", {}, measures, {}, 0.0)
+        outcome = calibration_search.Outcome(best, dict.fromkeys(measures, True))
+        rows = dict(table_rows(plan, outcome))
+        told.append(rows.get("direct over indirect tension"))
+    assert told == [None, "0.70; granites 0.77", None]
+    assert rows["direct indirect ratio"].startswith("0.7, target 0.8")
+
+
 def test_an_elastic_solve_serves_all_strengths(tmp_path):
     text = GOOD.replace("direct_tensile_strength = 6e6", "youngs_modulus = 25.8e9")
     plan = plan_of(tmp_path, text.replace("[free]", "[free]\nyoung = [20e9, 40e9]"))

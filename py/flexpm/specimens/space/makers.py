@@ -8,7 +8,9 @@ from typing import Unpack
 
 import numpy.typing as npt
 
+from ...errors import InputError
 from ...files import Table
+from ...require import quoted
 from ..plane import Packing, packing_of
 from .spec import SHORT_EDGE, SolidSpec
 from .specimen import SolidSpecimen
@@ -151,6 +153,12 @@ class SolidShapes:
 
 
 def _packed(kind: str, sizes: dict[str, float], packing: Packing) -> SolidSpecimen:
+    given: Table = {**packing}
+    if "holes" in given:
+        raise InputError(
+            f"Specimen.{kind}: holes = {quoted(given['holes'])}, are of the plane alone; leave "
+            "them out, or take Specimen.polygon"
+        )
     fields: Table = {**sizes, **packing_of(kind, (), packing)}
     progress = fields.pop("progress", None)
     return SolidSpecimen.pack(SolidSpec(kind, **fields), progress)
