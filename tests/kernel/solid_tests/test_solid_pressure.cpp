@@ -8,12 +8,15 @@
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
 #include <flexpm/kernel/solid_tests/solid_loose.hpp>
 #include <flexpm/kernel/solid_tests/solid_snapshot.hpp>
+#include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 
 #include "assembly/members.hpp"
 #include "solids/solid_states.hpp"
+
+#include <map>
 
 using namespace solid_states;
 
@@ -29,31 +32,119 @@ Vector place(const SolidState& s, int node)
     return space_vector(s.grains.reference, node) + space_vector(s.grains.displacement, node);
 }
 
-/// Vector of the present area of a surface triangle, outwards.
-Vector area_of(const SolidState& s, int t)
+using Nodes = std::array<int, 3>;
+
+/// Vector of the present area of a triangle, outwards.
+Vector area_of(const SolidState& s, const Nodes& n)
 {
-    const auto& n = s.surface.nodes[t];
     const Vector a = place(s, n[0]);
     return 0.5 * cross(place(s, n[1]) - a, place(s, n[2]) - a);
 }
+Vector area_of(const SolidState& s, int t) { return area_of(s, s.surface.nodes[t]); }
 
-Vector middle_of(const SolidState& s, int t)
+Vector middle_of(const SolidState& s, const Nodes& nodes)
 {
     Vector sum;
-    for (int n : s.surface.nodes[t])
+    for (int n : nodes)
         sum = sum + (1.0 / 3.0) * place(s, n);
     return sum;
 }
+Vector middle_of(const SolidState& s, int t) { return middle_of(s, s.surface.nodes[t]); }
 
 int triangles(const SolidState& s) { return static_cast<int>(s.surface.side.size()); }
 
-/// Volume within the surface, by Gauss's theorem, which is exact of flat triangles.
-double enclosed(const SolidState& s)
+/// Volume within triangles, by Gauss's theorem, which is exact of flat ones.
+double enclosed(const SolidState& s, const std::vector<Nodes>& triangles)
 {
     double sum = 0.0;
-    for (int t = 0; t < triangles(s); ++t)
-        sum += dot(middle_of(s, t), area_of(s, t)) / 3.0;
+    for (const Nodes& n : triangles)
+        sum += dot(middle_of(s, n), area_of(s, n)) / 3.0;
     return sum;
+}
+double enclosed(const SolidState& s) { return enclosed(s, s.surface.nodes); }
+
+/// Triangles across the slits that a bond's give leaves between the surfaces of two grains, and
+/// at corners of more: with those of the surface they are closed.
+std::vector<Nodes> slits_of(const SolidState& s)
+{
+    const auto corner = [&](int node) {
+        const Vector r = space_vector(s.grains.reference, node);
+        return std::array<double, 3> { r.x, r.y, r.z };
+    };
+    std::map<std::array<double, 3>, int> first;  // node at each corner
+    std::map<std::array<double, 6>, std::array<int, 2>> edges;
+    const auto edge = [&](int from, int to) {
+        const auto a = corner(from), b = corner(to);
+        return std::array<double, 6> { a[0], a[1], a[2], b[0], b[1], b[2] };
+    };
+    for (const Nodes& n : s.surface.nodes)
+        for (int k = 0; k < 3; ++k) {
+            const int from = n[k], to = n[(k + 1) % 3];
+            first.emplace(corner(from), from);
+            REQUIRE(edges.emplace(edge(from, to), std::array<int, 2> { from, to }).second);
+        }
+    std::vector<Nodes> slits;
+    for (const auto& [key, nodes] : edges) {
+        const auto [a, b] = nodes;
+        const auto [to, from] = edges.at(edge(b, a));
+        if (a == from || key > edge(b, a)) continue;
+        slits.insert(slits.end(),
+            { { b, a, from }, { b, from, to }, { from, a, first[corner(a)] },
+                { b, to, first[corner(b)] } });
+    }
+    return slits;
+}
+
+/// Watches the volume within the surface of a solid, and what triangles without pressure sweep.
+class VolumeWatch {
+public:
+    explicit VolumeWatch(const SolidState& s) : slits_(slits_of(s)), all_(s.surface.nodes)
+    {
+        all_.insert(all_.end(), slits_.begin(), slits_.end());
+        look(s);
+        swept_ = 0.0;
+    }
+    void look(const SolidState& s)
+    {
+        volume_ = enclosed(s, all_);
+        std::vector<std::array<Vector, 2>> now;
+        for (const Nodes& n : slits_)
+            now.push_back({ area_of(s, n), middle_of(s, n) });
+        for (std::size_t i = 0; i < before_.size(); ++i)
+            swept_ += 0.5 * dot(before_[i][0] + now[i][0], now[i][1] - before_[i][1]);
+        before_ = now;
+    }
+    /// Within the triangles of the surface and those across slits, which are closed.
+    double volume() const { return volume_; }
+    /// Volume that slits have swept since the start.
+    double swept() const { return swept_; }
+    /// Sum of all areas, which is zero of a closed surface.
+    Vector area(const SolidState& s) const
+    {
+        Vector sum;
+        for (const Nodes& n : all_)
+            sum = sum + area_of(s, n);
+        return sum;
+    }
+
+private:
+    std::vector<Nodes> slits_, all_;
+    std::vector<std::array<Vector, 2>> before_;
+    double volume_ = 0.0, swept_ = 0.0;
+};
+
+/// Mean strain along an axis, by Gauss's theorem.
+double mean_strain(const SolidState& s, double Vector::*axis)
+{
+    double way = 0.0, whole = 0.0;
+    for (int t = 0; t < triangles(s); ++t) {
+        const double area = area_vector(s, t).*axis;
+        for (int n : s.surface.nodes[t]) {
+            way += area * (space_vector(s.grains.displacement, n).*axis) / 3.0;
+            whole += area * (space_vector(s.grains.reference, n).*axis) / 3.0;
+        }
+    }
+    return way / whole;
 }
 
 /// A smooth motion that leaves neighbours together and both ends flat, to a share of its end.
@@ -187,6 +278,58 @@ TEST_CASE("The work of a pressure is that on the change of the volume", "[solids
     CHECK(energies(s).boundary_work != s.ledger.pressure_work);  // held nodes work, too
 }
 
+TEST_CASE("A confined solid has the work of its pressure on the change of its volume", "[solids]")
+{
+    const auto [rigid, stiffer] =
+        GENERATE(table<bool, double>({ { false, 1.0 }, { false, 100.0 }, { true, 1.0 } }));
+    const Packing p = box(30, 2);
+    SolidState s = made(p, rigid, stiffer);
+    VolumeWatch watch(s);
+    const double start = watch.volume();
+    double raw = 0.0, expected = 0.0, before = 0.0;
+    const auto step_at = [&](double now) {
+        const double volume = watch.volume(), swept = watch.swept();
+        for (int side = 0; side < 6; ++side)
+            set_pressure(s, side, now);
+        step(s, each);
+        watch.look(s);
+        // linear within a step, as the work is booked
+        const double mean = 0.5 * (before + now), change = watch.volume() - volume;
+        raw -= mean * change;
+        expected -= mean * (change - (watch.swept() - swept));
+        before = now;
+    };
+    const auto check_work = [&](double work, double wanted, double with_slits) {
+        CAPTURE(rigid, stiffer, work / wanted - 1.0, work / with_slits - 1.0);
+        CHECK(work == Approx(wanted).epsilon(1e-6));
+        // a slit bears no pressure, and its share is the give of the bonds over the grains' size
+        CHECK(work == Approx(with_slits).epsilon(stiffer > 1.0 ? 1e-6 : 1e-4));
+    };
+    const int ramp = 1000;
+    for (int k = 1; k <= 3 * ramp; ++k) {
+        const double t = std::min(1.0, static_cast<double>(k) / ramp);
+        step_at(pressure * t * t * (3.0 - 2.0 * t));
+    }
+    CHECK(norm(watch.area(s)) < 1e-12 * p.solid.volume / p.solid.high.z);
+    CHECK(watch.volume() - start < -1e-5 * start);
+    check_work(s.ledger.pressure_work, expected, raw);
+
+    if (!rigid) {  // ends of rigid grains lie on plates, which bear instead of the pressure
+        const double work = s.ledger.pressure_work, volume = watch.volume(), swept = watch.swept();
+        hold_ends(s, { false, false });
+        scale_masses(s, each.damping);
+        take_over_ends(s, elastic_field(s), -1e-7 * p.solid.high.z, true, each.dt);
+        for (int k = 0; k < 1000; ++k)
+            step_at(pressure);
+        const double change = watch.volume() - volume;
+        CAPTURE(change / start);
+        CHECK(change < -1e-5 * start);
+        check_work(s.ledger.pressure_work - work, -pressure * (change - (watch.swept() - swept)),
+            -pressure * change);
+    }
+    CHECK(count_cracks(s).tensile + count_cracks(s).shear == 0);
+}
+
 TEST_CASE("Three equal pressures strain a stiffly bonded solid as elasticity says", "[solids]")
 {
     const Packing p = box(30, 2);
@@ -195,6 +338,11 @@ TEST_CASE("Three equal pressures strain a stiffly bonded solid as elasticity say
     const auto grain = specimens::granite();
     const double expected = pressure * (1.0 - 2.0 * grain.poisson) / grain.young;
     const AxialObservation now = observe(s, solid_frame(s, Sense::compression));
+    for (const auto axis : { &Vector::x, &Vector::y, &Vector::z }) {
+        const double strain = mean_strain(s, axis);
+        CAPTURE(-strain / expected - 1.0);
+        CHECK(strain == Approx(-expected).epsilon(5e-3));
+    }
     CHECK(now.axial_strain == Approx(expected).epsilon(5e-3));
     CHECK(-now.lateral_strain == Approx(expected).epsilon(5e-3));
     CHECK(now.confinement == pressure);
