@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Let calls to the file system fail, one in each run, and see that nothing finished is lost.
 
-    scripts/checks/faults.py [run] [study] [calibration] [--draw N] [--seed S]
-                             [--part K/N] [--build DIR]
+    scripts/checks/faults.py [run] [core] [confined] [solid-disc] [study] [calibration]
+                             [--draw N] [--seed S] [--part K/N] [--build DIR]
 
-A small command is traced (strace): each write, rename, unlink and fsync below its folder is a place
-by call and file name. At the first and the last call of each place the process is killed, or the
-call gives EIO or ENOSPC. After the fault every file under its final name is whole; a process that
-was not killed has ended with a documented exit code and one line. The same command again, without
-a fault, ends with the bits of an undisturbed one and leaves nothing behind. --draw takes N of the
-faults by chance, of a seed that is printed; --part 2/3 takes every third from the second, for
-several processes side by side.
+A small command, of the plane or of a solid, is traced (strace): each write, rename, unlink and
+fsync below its folder is a place by call and file name. At the first and the last call of each
+place the process is killed, or the call gives EIO or ENOSPC. After the fault every file under its
+final name is whole; a process that was not killed has ended with a documented exit code and one
+line. The same command again, without a fault, ends with the bits of an undisturbed one and leaves
+nothing behind. --draw takes N of the faults by chance, of a seed that is printed; --part 2/3 takes
+every third from the second, for several processes side by side.
 """
 
 from __future__ import annotations
@@ -35,7 +35,14 @@ CALLS = ("write", "writev", "rename", "unlink", "fsync")
 FAULTS = ("signal=KILL", "error=EIO", "error=ENOSPC")
 #: Exit codes of a process that met an error, or of one whose child was killed.
 CODES = (0, 1, 2, 3)
-SMALL = ("--width", "0.012", "--height", "0.024", "--rate", "4", "--quiet")
+#: Runs of a second or so: one of the plane, then those of solids.
+CORE = ("--diameter", "0.009", "--height", "0.012", "--rate", "8")
+RUNS = {
+    "run": ("tension", "--width", "0.012", "--height", "0.024", "--rate", "4"),
+    "core": ("uniaxial", "--shape", "cylinder", *CORE),
+    "confined": ("triaxial", *CORE, "--confinement", "5e6", "--max-strain", "2e-3"),
+    "solid-disc": ("brazilian", "--diameter", "0.012", "--depth", "0.008", "--rate", "2"),
+}
 STUDY = """[common]
 test = "tension"
 width = 0.012
@@ -66,6 +73,8 @@ direct_tensile_strength = { value = 8e6, tolerance = 0.5 }
 [free]
 tensile_strength = [2e6, 30e6]
 """
+#: Names of all campaigns.
+CAMPAIGNS = (*RUNS, "study", "calibration")
 #: A traced call: process, name, arguments.
 _TRACED = re.compile(r"^(\d+) +(\w+)\((.*)$")
 #: Parts of a name that differ from run to run.
@@ -102,7 +111,7 @@ class Campaign:
         for kind, text in (("study", STUDY), ("calibration", CALIBRATION)):
             (work / f"{kind}.toml").write_text(text)
         self.command = {
-            "run": [flexpm, "run", "tension", *SMALL],
+            **{kind: [flexpm, "run", *words, "--quiet"] for kind, words in RUNS.items()},
             "study": [flexpm, "study", str(work / "study.toml"), "--quiet", "--workers", "1"],
             "calibration": [
                 *(flexpm, "calibrate", str(work / "calibration.toml")),
@@ -230,7 +239,7 @@ class Campaign:
 
     def _may_differ(self, name: str) -> bool:
         """A study tells in some files how its runs ended, which the fault may have changed."""
-        return (self.name != "run" and not name.startswith("runs/")) or "outcome.json" in name
+        return (self.name not in RUNS and not name.startswith("runs/")) or "outcome.json" in name
 
     def reference(self) -> dict[str, str]:
         """Bits of an undisturbed run, whose trace is kept."""
@@ -247,7 +256,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("names", nargs="*", metavar="NAME", help="run, study, calibration")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(CAMPAIGNS))
     parser.add_argument("--draw", type=int, metavar="N", help="so many of the faults by chance")
     parser.add_argument("--seed", type=int, default=1, metavar="S")
     parser.add_argument("--part", default="1/1", metavar="K/N", help="every Nth from the Kth")

@@ -275,6 +275,8 @@ class Physics:
 
     #: Steps after which a test is left: it would end, but nobody waits for it.
     LONGEST = 20_000
+    #: The same of a solid, whose steps are longer.
+    LONGEST_OF_SOLIDS = 8_000
 
     class LongError(Exception):
         """The test is long."""
@@ -282,10 +284,17 @@ class Physics:
     def __call__(self, example: dict[str, Any]) -> dict[str, Any]:
         """Status of a run, and what of its result is no number; or its error."""
         import flexpm
-        from flexpm.specimens.spec import SpecimenSpec
+        from flexpm.specimens.space.any_spec import is_solid, spec_of
+        from flexpm.specimens.space.specimen import SolidSpecimen
+
+        solid = is_solid(example["specimen"]["kind"])
+        longest = self.LONGEST_OF_SOLIDS if solid else self.LONGEST
+        steps = 0.0
 
         def look(done: float, expected: float, text: str) -> None:
-            if done > self.LONGEST:
+            nonlocal steps
+            steps = done
+            if done > longest:
                 raise self.LongError(f"{done} steps of {expected:.3g}")
 
         sizes = dict(example["specimen"])
@@ -297,14 +306,14 @@ class Physics:
                 kinds = [{"name": name, "fraction": 0.5} for name in ("hard", "soft")]
                 rock = dataclasses.replace(rock, minerals=kinds)
             rock = rock.with_set(example["material"], model)
-            specimen = flexpm.Specimen.pack(SpecimenSpec(**sizes))
+            specimen = (SolidSpecimen if solid else flexpm.Specimen).pack(spec_of(sizes))
             if example["joints"]:
                 specimen = specimen.with_joints(example["joints"])
             result = flexpm.run(
                 example["test"], specimen, rock, model, progress=look, **example["options"]
             )
         except Exception as raised:
-            return {"error": f"{type(raised).__name__}: {raised}"}
+            return {"error": f"{type(raised).__name__}: {raised}", "steps": steps}
         return {
             "status": result.status,
             "energy_error": result.energy_error,
@@ -328,7 +337,7 @@ class Physics:
         if result.status == "diverged":
             return found
         absent = COLUMNS if result.model in SPHERE_MODELS else ()
-        if result.test not in ("uniaxial", "tension", "biaxial"):
+        if result.test not in ("uniaxial", "tension", "biaxial", "triaxial"):
             absent = (*absent, "lateral_strain")
         if result.test == "sonic":  # one end is free
             absent = (*absent, "end_mismatch")

@@ -116,6 +116,20 @@ def test_a_rigid_grain_moves_and_turns_as_a_script_wants(solid):
         cell.setMotion((0, 0, 0), 1.0)
 
 
+@pytest.mark.parametrize("far", [1e20, 1e200])
+def test_a_bond_of_a_grain_that_has_flown_out_of_sight_has_no_normal_and_no_force(solid, far):
+    model = solid("rigid")
+    O.bodies[0].shape.setMotion((far, far, far), (0.0, 0.0, 0.0))
+    with pytest.raises(RuntimeError, match="step 1: contacts without a middle face"):
+        O.step()
+    model.solver.mirrorBodies()
+    lost = [one for one in bonds() if one.id1 == 0]
+    assert lost
+    for one in lost:
+        shown = (one.geom.normal, one.phys.normalForce, one.phys.shearForce)
+        assert all(tuple(vector) == (0.0, 0.0, 0.0) for vector in shown)
+
+
 def test_a_velocity_written_by_a_script_moves_the_node_in_the_next_step(solid):
     model = solid()
     cell = O.bodies[3].shape

@@ -14,7 +14,7 @@ NUMBERS = st.sampled_from(
 )
 WORDS = st.sampled_from(
     """uniaxial tension biaxial triaxial brazilian flexible rigid inner jcfpm static adaptive
-    constant waiting box cylinder p s
+    constant waiting box cylinder solid-disc solid-half-disc p s
     axial lateral displacement cmod gif augig-table7 augig-table2-brittle
     nofile.toml""".split()
 )
@@ -51,22 +51,30 @@ COMMANDS = st.sampled_from(
             ("run", test, "--shape", "box")
             for test in ("uniaxial", "tension", "biaxial", "triaxial", "sonic")
         ),
+        *(("run", test, "--shape", "cylinder") for test in ("uniaxial", "tension", "sonic")),
         ("run", "triaxial"),
+        ("run", "brazilian", "--shape", "solid-disc"),
         ("run", "bending", "--shape", "box"),
         ("run", "scb", "--shape", "solid-half-disc"),
         ("run", "shear", "--shape", "box"),
         ("run", "punch", "--shape", "box"),
         *(("specimen", shape) for shape in ("rectangle", "disc", "box", "cylinder")),
+        *(("specimen", shape) for shape in ("solid-disc", "solid-half-disc")),
         *(("specimen", "image", file, "--pixel", "1e-4") for file in ("nofile.toml", "no.npy")),
         *(("specimen", kind, f"no.{end}") for kind, end in (("ebsd", "ctf"), ("tess", "tess"))),
         *((name, "nofile.toml") for name in ("study", "calibrate", "rerun", "report")),
         *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),
         ("bench", "--shape", "box"),
+        ("elastic", "--shape", "cylinder"),
+        ("compare", "brazilian", "--shape", "solid-disc"),
     ]
 )
 #: A small specimen and few steps, so that what is right soon ends.
 RECTANGLE = ["--width", "0.012", "--height", "0.016"]
 BOX = ["--width", "0.009", "--depth", "0.009", "--height", "0.012"]
+CORE = ["--diameter", "0.009", "--height", "0.012"]
+DISC = ["--diameter", "0.012", "--depth", "0.008"]
+LONG = ["--height", "0.16", "--diameters", "2.8e-3,3.2e-3", "--model", "rigid"]
 BEAM = ["--length", "0.03", "--height", "0.008"]
 FEW = ["--max-strain", "1e-5", "--rate", "50"]
 NEXT = ["--max-displacement", "1e-8", "--rate", "50"]
@@ -75,9 +83,17 @@ SIZES = {
     "run tension --shape box": [*BOX, *FEW],
     "run biaxial --shape box": [*BOX, *FEW],
     "run triaxial --shape box": [*BOX, *FEW],
-    "run sonic --shape box": BOX,
-    "run triaxial": ["--diameter", "0.009", "--height", "0.012", *FEW],
-    "specimen cylinder": ["--diameter", "0.009", "--height", "0.012", "--out", "made"],
+    "run sonic --shape box": ["--width", "0.0066", "--depth", "0.0066", *LONG],
+    "run uniaxial --shape cylinder": [*CORE, *FEW],
+    "run tension --shape cylinder": [*CORE, *FEW],
+    "run sonic --shape cylinder": ["--diameter", "0.007", *LONG],
+    "run triaxial": [*CORE, *FEW],
+    "run brazilian --shape solid-disc": [*DISC, *FEW],
+    "specimen cylinder": [*CORE, "--out", "made"],
+    "specimen solid-disc": [*DISC, "--out", "made"],
+    "specimen solid-half-disc": ["--diameter", "0.024", "--depth", "0.008", "--out", "made"],
+    "elastic --shape cylinder": CORE,
+    "compare brazilian --shape solid-disc": [*DISC, *FEW],
     "run brazilian": ["--diameter", "0.012", *FEW],
     "run bending": [*BEAM, *FEW],
     "run bending --shape box": [*BEAM, "--depth", "0.008", *FEW],
@@ -94,7 +110,7 @@ SIZES = {
     "specimen box": [*RECTANGLE, "--depth", "0.012", "--out", "made"],
     "compare bending": [*BEAM, *FEW],
     "compare": [*RECTANGLE, *FEW],
-    "bench --shape": [*BOX, "--steps", "2"],
+    "bench --shape box": [*BOX, "--steps", "2"],
     "bench": [*RECTANGLE, "--steps", "2"],
 }
 

@@ -134,6 +134,20 @@ def test_threads_change_no_bit(core, model):
 
 @pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_tension_test_that_is_stopped_as_it_cracks_goes_on_to_the_same_bits(
+    core, model, tmp_path, monkeypatch
+):
+    asked = {"model": model, "report": False, **FAST}
+    whole = flexpm.run("tension", core, threads=2, **asked)
+    amid = whole.cracks[len(whole.cracks) // 2].step
+    again = taken_up(monkeypatch, tmp_path, amid, "tension", core, **asked)
+    assert whole.cracks[0].step < again.resumed_at < whole.steps
+    assert same(again, whole)
+    assert again.cracks == whole.cracks
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_a_run_that_is_stopped_goes_on_to_the_same_bits(core, model, tmp_path, monkeypatch):
     asked = {"model": model, "max_strain": 8e-4, "rate": 0.1}
     whole = flexpm.run("uniaxial", core, **asked)

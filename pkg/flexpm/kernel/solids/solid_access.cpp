@@ -29,6 +29,11 @@ Vector normal_of(const std::vector<Vector>& corners)
     return size > 0.0 ? (1.0 / size) * twice : Vector {};
 }
 
+Vector contact_normal(const SolidState& s, int contact)
+{
+    return normal_of(middle_face(s, contact));
+}
+
 FaceFrame contact_frame(const SolidState& s, int contact)
 {
     return face_frame(middle_face(s, contact), { 0, s.contacts.line[s.contacts.slot[contact]] });
@@ -115,14 +120,16 @@ BondStiffness bond_stiffness(const FaceContacts& contacts, int contact)
 
 std::vector<Vector> point_forces(const SolidState& s, int contact)
 {
+    std::vector<Vector> forces(s.contacts.points_of(contact));
+    if (!(norm(contact_normal(s, contact)) > 0.0)) return forces;
     const FaceFrame frame = contact_frame(s, contact);
     const std::vector<FacePlace> places = places_of(s, contact);
-    std::vector<Vector> forces;
-    for (int p = 0; p < s.contacts.points_of(contact); ++p) {
-        const FaceTraction t = traction_of(s.contacts, contact, p, places[p]);
+    for (std::size_t p = 0; p < forces.size(); ++p) {
+        const int point = static_cast<int>(p);
+        const FaceTraction t = traction_of(s.contacts, contact, point, places[p]);
         // in tension the second grain is pulled back to the first
-        forces.push_back(-s.contacts.area(contact, p)
-            * (t.normal * frame.normal + t.shear.x * frame.first + t.shear.y * frame.second));
+        forces[p] = -s.contacts.area(contact, point)
+            * (t.normal * frame.normal + t.shear.x * frame.first + t.shear.y * frame.second);
     }
     return forces;
 }

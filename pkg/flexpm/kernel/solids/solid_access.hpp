@@ -21,6 +21,10 @@ std::vector<Vector> middle_face(const SolidState& s, int contact, double factor 
 /// Unit normal of a polygon, from the side of which it is counter-clockwise; 0 if it has no area.
 Vector normal_of(const std::vector<Vector>& corners);
 
+/// Normal of a contact, from the first grain to the second; 0 if grains have flown so far that
+/// their faces have no area any more.
+Vector contact_normal(const SolidState& s, int contact);
+
 /// Normal of a contact, from the first grain to the second, and its tangents.
 /// @throws std::invalid_argument  if the face has no area
 FaceFrame contact_frame(const SolidState& s, int contact);
@@ -51,7 +55,8 @@ double mean_opening(const SolidState& s, int contact);
 /// Stiffnesses of a bond as a whole while it is intact [N/m].
 BondStiffness bond_stiffness(const FaceContacts& contacts, int contact);
 
-/// Forces of the points of a contact on its second grain: areas times tractions [N].
+/// Forces of the points of a contact on its second grain: areas times tractions [N]; 0 if its face
+/// has no area.
 std::vector<Vector> point_forces(const SolidState& s, int contact);
 
 /// Force of a contact on its second grain; that on the first is the opposite [N].

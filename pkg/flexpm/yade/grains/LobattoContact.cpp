@@ -62,7 +62,7 @@ namespace {
 
 	// what a bond of the plane and one of space tell
 	Vector3r normalOf(const Assembly& a, int place) { return toYade(a.contacts.normal(place)); }
-	Vector3r normalOf(const SolidState& s, int place) { return toYade(flexpm::contact_frame(s, place).normal); }
+	Vector3r normalOf(const SolidState& s, int place) { return toYade(flexpm::contact_normal(s, place)); }
 
 	Vector3r middleOf(const Assembly& a, int place) { return .5 * (toYade(flexpm::contact_end(a, place, 0)) + toYade(flexpm::contact_end(a, place, 1))); }
 	Vector3r middleOf(const SolidState& s, int place) { return toYade(flexpm::contact_middle(s, place)); }
