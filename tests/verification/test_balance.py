@@ -20,7 +20,7 @@ SIZES = [
     (0.02, 1),
     (0.02, 3),
     (0.04, 1),
-    pytest.param(0.08, 1, marks=pytest.mark.long),  # the paper's size, 1630 grains
+    pytest.param(0.08, 1, marks=pytest.mark.slow),  # the paper's size, 1630 grains
     pytest.param(0.25, 1, marks=pytest.mark.slow),  # 16 000 grains
 ]
 

@@ -72,7 +72,7 @@ def measured_again(name: str, fineness: float, number: int) -> None:
 
 
 #: Cases whose coarsest run takes half a minute and more, too.
-LONG = ("rubbing crack", "strip opened", "strip sheared")
+LONG = ("rubbing crack", "strip opened", "strip sheared", "sliding far flexible")
 
 
 @pytest.mark.long

@@ -164,7 +164,7 @@ def filled() -> flexpm.Specimen:
     return specimen.with_excavations({"hole": rim})
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_an_excavated_borehole_has_the_hoop_stress_of_one_made_before_and_of_kirsch():
     """Within 3 % of the largest, at two pressures; its wall is that of the hole."""
     specimen = filled()

@@ -55,6 +55,7 @@ def test_wrong_virtual_table_is_caught(name: str) -> None:
     assert [row[:2] for row in failed] == [(name, "vtable")]
 
 
+@pytest.mark.long
 def test_each_attribute_check_can_fail() -> None:
     names = [(c, k.split()[1]) for c, k, _, _ in rows() if k.startswith("attribute ")]
     assert len(names) > 70

@@ -269,6 +269,7 @@ BEGUN = (
 )
 
 
+@pytest.mark.long
 @given(SOLID, st.sampled_from(BEGUN), st.lists(PLAIN | PARTS, max_size=8))
 @drawing(40)
 def test_parts_of_solids_laid_in_any_order_end_in_one_line(child, build, begun, calls):

@@ -52,6 +52,7 @@ def test_a_core_under_lateral_control_has_the_same_peak(model):
     assert led.energy_error < 1e-2
 
 
+@pytest.mark.long
 def test_a_notched_beam_under_control_of_its_mouth():
     beam = flexpm.Specimen.box(0.036, 0.009, 0.009, seed=1)
     free = flexpm.run("bending", beam, model="rigid", notch=0.003)

@@ -241,7 +241,7 @@ def test_a_killed_test_goes_on_to_the_same_bits(whole, tmp_path):
         require_same(tmp_path / str(number), whole)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_killed_twist_goes_on_to_the_same_bits(tmp_path):
     assert ended(started(tmp_path, TWIST)) == (0, "")
     found = content(tmp_path / "out")
@@ -265,6 +265,7 @@ def test_it_is_made_again_to_the_same_bits(whole, tmp_path):
     assert json.loads((again / "result.json").read_text())["inputs"]["calls"] == inputs["calls"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_held_nodes_bear_what_they_pull(model):
     tall = flexpm.Specimen.box(SIZE, SIZE, 2.0 * SIZE, seed=1)
@@ -290,6 +291,7 @@ def test_held_nodes_bear_what_they_pull(model):
         low.move(spin=1.0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_held_nodes_that_turn_twist_a_solid(model, tmp_path):
     tall = flexpm.Specimen.box(SIZE, SIZE, 2.0 * SIZE, seed=1)

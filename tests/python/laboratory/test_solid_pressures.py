@@ -50,6 +50,7 @@ def box():
     return flexpm.Specimen.box(SIZE, SIZE, 1.5 * SIZE, seed=1)
 
 
+@pytest.mark.long
 @MODELS
 def test_a_fluid_on_the_mantle_and_a_plate_press_alike(core, model):
     rig, pressure = rig_of(core, model), 5e6

@@ -133,6 +133,7 @@ def test_the_key_holds_the_script_and_what_it_imports_beside_itself(tmp_path):
     assert keys[-1] not in keys[:-1]
 
 
+@pytest.mark.long
 def test_a_function_is_run_by_processes(tmp_path):
     (tmp_path / "own.py").write_text(FUNCTION)
     done = subprocess.run(
