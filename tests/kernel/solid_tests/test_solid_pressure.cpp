@@ -17,6 +17,7 @@
 #include "solids/solid_states.hpp"
 
 #include <map>
+#include <utility>
 
 using namespace solid_states;
 
@@ -280,8 +281,10 @@ TEST_CASE("The work of a pressure is that on the change of the volume", "[solids
 
 TEST_CASE("A confined solid has the work of its pressure on the change of its volume", "[solids]")
 {
-    const auto [rigid, stiffer] =
-        GENERATE(table<bool, double>({ { false, 1.0 }, { false, 100.0 }, { true, 1.0 } }));
+    const auto chosen =
+        GENERATE(std::pair { false, 1.0 }, std::pair { false, 100.0 }, std::pair { true, 1.0 });
+    const bool rigid = chosen.first;
+    const double stiffer = chosen.second;
     const Packing p = box(30, 2);
     SolidState s = made(p, rigid, stiffer);
     VolumeWatch watch(s);
