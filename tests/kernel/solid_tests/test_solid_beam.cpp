@@ -148,7 +148,7 @@ TEST_CASE("Rollers and head of a beam bear along lines across all of its depth",
         Catch::Contains("part = 2, must be the number of a plate"));
 }
 
-TEST_CASE("A beam with stiff contacts is bent as Timoshenko's", "[solids]")
+TEST_CASE("A beam with stiff contacts is bent as Timoshenko's", "[solids][elastic_bodies]")
 {
     const double coarse = deflection(4), middle = deflection(8), fine = deflection(16);
     CAPTURE(coarse, middle, fine);
