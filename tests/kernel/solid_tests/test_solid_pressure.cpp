@@ -17,7 +17,7 @@
 #include "solids/solid_states.hpp"
 
 #include <map>
-#include <utility>
+#include <tuple>
 
 using namespace solid_states;
 
@@ -282,9 +282,9 @@ TEST_CASE("The work of a pressure is that on the change of the volume", "[solids
 TEST_CASE("A confined solid has the work of its pressure on the change of its volume", "[solids]")
 {
     const auto chosen =
-        GENERATE(std::pair { false, 1.0 }, std::pair { false, 100.0 }, std::pair { true, 1.0 });
-    const bool rigid = chosen.first;
-    const double stiffer = chosen.second;
+        GENERATE(table<bool, double>({ { false, 1.0 }, { false, 100.0 }, { true, 1.0 } }));
+    const bool rigid = std::get<0>(chosen);
+    const double stiffer = std::get<1>(chosen);
     const Packing p = box(30, 2);
     SolidState s = made(p, rigid, stiffer);
     VolumeWatch watch(s);
