@@ -64,15 +64,8 @@ def case(seed: int) -> dict:
         options["confinement"] = draw.choice([0.0, power(4.0, 9.0)])
     if test == "bending":
         options["notch"] = specimen["height"] * draw.choice([0.0, 0.3, 0.8])
-    if model in BLOCK_MODELS and kind_of(test).controls:
-        options["control"] = draw.choice(tuple(kind_of(test).controls))
-    if test in ("shear", "punch"):
-        del options["stop_ratio"]
-    if test == "shear":
-        options["normal_stress"] = draw.choice([1e6, power(3.0, 10.0)])
-    if test == "sonic":
-        options = {"wave": draw.choice(WAVES)}
-    elif model == "flexible" and draw.random() < 0.15:
+    options = _of_test(draw, power, options, test, model)
+    if test != "sonic" and model == "flexible" and draw.random() < 0.15:
         options |= {"dynamic": True, "gravity": draw.choice([0.0, 9.81, 1e6])}
     joints = {}
     if draw.random() < 0.25:
@@ -145,15 +138,8 @@ def solid_case(seed: int) -> dict:
         options["notch"] = specimen["height"] * draw.choice([0.0, 0.2, 0.6])
     if kind.has("jaw_radius") and draw.random() < 0.5:
         options["jaw_radius"] = specimen["diameter"] * draw.choice([0.55, 0.75, 3.0])
-    if model in BLOCK_MODELS and kind.controls:
-        options["control"] = draw.choice(tuple(kind.controls))
-    if test in ("shear", "punch"):
-        del options["stop_ratio"]
-    if test == "shear":
-        options["normal_stress"] = draw.choice([1e6, power(3.0, 10.0)])
-    if test == "sonic":
-        options = {"wave": draw.choice(WAVES)}
-    elif draw.random() < 0.2:
+    options = _of_test(draw, power, options, test, model)
+    if test != "sonic" and draw.random() < 0.2:
         options["damping"] = draw.choice([0.0, 0.2, 0.99])
     if model not in BLOCK_MODELS and draw.random() < 0.5:
         options["interaction_range"] = draw.choice([1.0, 1.3, 2.0])
@@ -169,6 +155,23 @@ def _powers_of(draw: random.Random) -> Callable[[float, float], float]:
         return 10.0 ** draw.uniform(low, high)
 
     return power
+
+
+def _of_test(
+    draw: random.Random,
+    power: Callable[[float, float], float],
+    options: dict,
+    test: str,
+    model: str,
+) -> dict:
+    """The same options with what the test alone takes, and without what it does not."""
+    if model in BLOCK_MODELS and kind_of(test).controls:
+        options["control"] = draw.choice(tuple(kind_of(test).controls))
+    if test in ("shear", "punch"):
+        del options["stop_ratio"]
+    if test == "shear":
+        options["normal_stress"] = draw.choice([1e6, power(3.0, 10.0)])
+    return {"wave": draw.choice(WAVES)} if test == "sonic" else options
 
 
 def _rock(draw: random.Random, power: Callable[[float, float], float], model: str) -> dict:
