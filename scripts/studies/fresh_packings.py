@@ -64,8 +64,8 @@ def specimen_of(preset: Preset, seed: int, *, split: bool) -> Any:
     if preset.solid:
         return flexpm.Specimen.box(0.025, 0.025, 0.050, seed=seed)
     if split:
-        return flexpm.Specimen.disc(0.080, seed=seed)
-    return flexpm.Specimen.rectangle(0.080, 0.160, seed=seed)
+        return flexpm.Specimen.disc(0.080, 0.040, seed=seed)
+    return flexpm.Specimen.rectangle(0.080, 0.160, 0.040, seed=seed)
 
 
 def row_of(preset: Preset, confinement: float, seed: int, *, split: bool) -> list[object]:
