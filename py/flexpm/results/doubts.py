@@ -343,10 +343,10 @@ def of_set_point(measure: str, missed: float) -> list[str]:
 
 
 def of_divergence(step: int) -> str:
-    """What is left of a test in which a number is not finite any more."""
+    """What is left of a test in which numbers are not finite or faces have turned over."""
     return (
-        f"the record ends before step {step}, at which a number was not finite any more; lower the "
-        "rate or check what is driven"
+        f"the record ends before step {step}, at which a number was not finite any more or faces "
+        "of a solid had turned over; lower the rate or check what is driven"
     )
 
 

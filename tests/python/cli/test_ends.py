@@ -115,6 +115,19 @@ def test_a_run_that_diverges_under_its_confinement_writes_what_it_has(capsys, tm
 
 
 @pytest.mark.long
+def test_a_solid_whose_faces_turn_over_writes_what_it_has(capsys, tmp_path):
+    box = ["--shape", "box", "--width", "0.012", "--depth", "0.012", "--height", "0.024"]
+    fast = ["--rate", "1000", "--max-strain", "0.9", "--material", "augig3d-calibrated"]
+    assert cli.main(["run", "uniaxial", *box, *fast, "--seed", "1", "--out", str(tmp_path)]) == 3
+    assert "status = diverged" in one_line(capsys.readouterr().err)
+    result = json.loads((tmp_path / "result.json").read_text())
+    assert result["status"] == "diverged"
+    assert len((tmp_path / "curve.csv").read_text().splitlines()) > 2
+    _, _, cells = read_vtu(tmp_path / "final.vtu")
+    assert (cells["kind"] == 0).any()
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("redirection", [">&-", "| true", "> /dev/full"])
 def test_files_are_finished_when_nobody_reads_stdout(tmp_path, redirection):
     line = f'"$@" --out {tmp_path} {redirection}; exit ${{PIPESTATUS[0]}}'

@@ -253,6 +253,16 @@ void SolidSolver::requireReady() const
 	requireOwnValues();
 }
 
+void SolidSolver::takeStep()
+{
+	try {
+		flexpm::step(state, stepOptions());
+	} catch (const std::runtime_error&) { // of faces that have turned over: the record up to here is good
+		diverged = true;
+		throw;
+	}
+}
+
 void SolidSolver::action()
 {
 	requireReady();
@@ -261,7 +271,7 @@ void SolidSolver::action()
 		flexpm::find_loose(state);
 	}
 	if (state.step % checkPeriod == 0 || destroyedContacts() != seenDestroyed) removeErased();
-	flexpm::step(state, stepOptions());
+	takeStep();
 	flexpm::sum_node_sets(state, scene->dt);
 	if (state.step % mirrorPeriod == 0) mirrorStates();
 	if (state.step % checkPeriod == 0) check();

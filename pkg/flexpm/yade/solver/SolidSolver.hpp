@@ -107,6 +107,7 @@ public:
 
 private:
 	void requireReady() const;
+	void takeStep();
 	void findStates() override;
 	void mirrorStates() override;
 	void removeErased() override;
