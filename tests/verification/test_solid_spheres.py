@@ -14,6 +14,7 @@ from flexpm.materials.material import Material
 from flexpm.models.sphere_bonds import bonds_of, laws_of
 from flexpm.models.sphere_faces import outer_faces, shared_faces
 from flexpm.results.result import Result
+from flexpm.rigs.solids.sphere_gauge import SphereGauge
 
 MODELS = ["jcfpm", "cohfrict"]
 SIZE = 1e-3  # of cubic grains [m]
@@ -169,6 +170,21 @@ def test_stress_slip_and_places_of_a_snapshot(box, model):
     assert moved.positions == pytest.approx(nodes @ turn.T + way, abs=1e-15)
     assert moved.corners == pytest.approx(state.corners @ turn.T + way, abs=1e-15)
     assert np.abs(moved.point_opening).max() < 1e-15
+
+
+def test_the_lateral_strain_is_that_of_the_waist():
+    along_x, along_y, along_z = 3e-4, 1e-4, -5e-4
+    for specimen in (Specimen.box(0.012, 0.012, 0.024, seed=3), cubes(3, 6)):
+        height, centres = specimen.dimensions["height"], np.array(specimen.centres)
+        even = centres * [along_x, along_y, along_z] + [1e-3, -2e-3, 0.0]
+        expected = (along_z, 0.5 * (along_x + along_y))
+        gauge = SphereGauge(specimen)
+        assert gauge.strains(centres, even) == pytest.approx(expected, rel=1e-9)
+        ends = np.abs(centres[:, 2] / height - 0.5) > 0.4
+        even[ends, :2] = 0.1 * centres[ends, :2]
+        assert gauge.strains(centres, even)[1] == pytest.approx(expected[1], rel=1e-9)
+    column = cubes(1, 6)
+    assert math.isnan(SphereGauge(column).strains(np.array(column.centres), np.zeros((6, 3)))[1])
 
 
 @pytest.mark.parametrize("model", MODELS)

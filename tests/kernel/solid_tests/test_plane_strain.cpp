@@ -40,14 +40,14 @@ SolidState prisms(const specimens::Specimen& plane, double depth)
     return make_solid(polyhedra(spheres, solid, {}), solid, input);
 }
 
-/// Constants of the elastic solution: the mean of both lateral strains is half the one along x.
+/// Constants of the elastic solution, over the whole height as those of the plane.
 ElasticConstants constants(SolidState s)
 {
     hold_ends(s, { false, false });
     scale_masses(s, 0.7);
     start_ends(s, elastic_field(s), 1e-7, 1e-12, true, 1.0);
     const AxialObservation now = observe(s, solid_frame(s, Sense::tension));
-    return { now.axial_stress / now.axial_strain, 2.0 * now.lateral_strain / now.axial_strain };
+    return { now.axial_stress / now.axial_strain, -mean_strain(s, &Vector::x) / now.axial_strain };
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "reference/solid_samples.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace solid_states {
@@ -62,6 +63,23 @@ template <class Visit> void for_both(const SolidState& s, plain_solid::Specimen&
     for_each_node(s, [&](int grain, int number) {
         visit(s.grains.node(grain, number), plain.nodes[plain.grains[grain].nodes[number]]);
     });
+}
+
+/// Mean strain of the whole specimen along an axis, by Gauss's theorem; of rigid grains that of
+/// their centres.
+inline double mean_strain(const SolidState& s, double Vector::*axis)
+{
+    double way = 0.0, whole = 0.0;
+    for (std::size_t t = 0; t < s.surface.side.size(); ++t) {
+        const double area = area_vector(s, static_cast<int>(t)).*axis;
+        std::array<int, 3> nodes = s.surface.nodes[t];
+        if (!s.bodies.empty()) nodes.fill(s.grains.centre(s.surface.grain[t]));
+        for (int n : nodes) {
+            way += area * (space_vector(s.grains.displacement, n).*axis) / 3.0;
+            whole += area * (space_vector(s.grains.reference, n).*axis) / 3.0;
+        }
+    }
+    return way / whole;
 }
 
 /// Give the state what the plain specimen has: masses, places, velocities, spins, what is held.

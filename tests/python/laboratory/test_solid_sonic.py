@@ -36,7 +36,8 @@ def ratio_of(result, found, material, wave, *, free=False):
 @pytest.mark.parametrize(
     ("model", "wave", "free", "off"),
     [
-        ("rigid", "p", False, 0.04),
+        # two grains across: nu of a third of the bar is off by 2 %
+        ("rigid", "p", False, 0.05),
         ("rigid", "s", False, 0.04),
         ("rigid", "p", True, 0.02),
         pytest.param("flexible", "p", False, 0.01, marks=pytest.mark.long),

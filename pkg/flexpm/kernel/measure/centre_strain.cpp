@@ -17,7 +17,12 @@ void Station::add(double share, double place, double displacement)
 double strain_between(const Station& first, const Station& second)
 {
     const double u = second.displacement_ / second.weight_ - first.displacement_ / first.weight_;
-    return u / (second.place_ / second.weight_ - first.place_ / first.weight_);
+    return u / apart(first, second);
+}
+
+double apart(const Station& first, const Station& second)
+{
+    return second.place_ / second.weight_ - first.place_ / first.weight_;
 }
 
 bool in_band(double above, double station, double mean_diameter)
@@ -34,9 +39,9 @@ void need_grains(const Station& station, double height)
 
 void need_apart(const Station& low, const Station& high)
 {
-    const double apart = high.place_ / high.weight_ - low.place_ / low.weight_;
-    if (apart > 0.0) return;
-    refuse("height between strain gauges", apart, "m",
+    const double height = apart(low, high);
+    if (height > 0.0) return;
+    refuse("height between strain gauges", height, "m",
         "must be above 0, but both are the same grains; use smaller ones");
 }
 

@@ -36,13 +36,16 @@ public:
     void add(double share, double place, double displacement);
     bool empty() const { return weight_ == 0.0; }
     friend double strain_between(const Station& first, const Station& second);
-    friend void need_apart(const Station& low, const Station& high);
+    friend double apart(const Station& first, const Station& second);
 
 private:
     double weight_ = 0.0, place_ = 0.0, displacement_ = 0.0;
 };
 
 double strain_between(const Station& first, const Station& second);
+
+/// From the mean place of the first to that of the second [m].
+double apart(const Station& first, const Station& second);
 
 /// Whether a centre at this height above the bottom is within a mean diameter of `station`, another
 /// such height.

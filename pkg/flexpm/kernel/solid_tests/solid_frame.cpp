@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/measure/centre_strain.hpp>
+#include <flexpm/kernel/solid_tests/surface_pieces.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flexpm {
 
@@ -78,22 +80,70 @@ double axial_strain(const SolidState& s)
     return way / extent_of(s).height;
 }
 
-/// Mean of both lateral strains, extension positive. By Gauss's theorem the ways along the mantle's
-/// normals sum to it; of rigid grains those of the centres behind it.
+/// Heights between which the lateral strain is measured [m].
+struct Waist {
+    double from = 0.0;
+    double to = 0.0;
+};
+
+Waist waist_of(const SolidState& s)
+{
+    const double bottom = mean_of(s, s.grains.reference, SolidSide::bottom);
+    const double top = mean_of(s, s.grains.reference, SolidSide::top);
+    return { bottom + (top - bottom) / 3.0, top - (top - bottom) / 3.0 };
+}
+
+/// Part of a surface triangle at the waist; most lie within or beyond it as a whole.
+Piece piece_at(const SolidState& s, int triangle, const Waist& waist)
+{
+    double low = waist.to, high = waist.from;
+    for (int n : s.surface.nodes[triangle]) {
+        const double z = space_vector(s.grains.reference, n).z;
+        low = std::min(low, z);
+        high = std::max(high, z);
+    }
+    if (low >= waist.to || high <= waist.from) return {};
+    constexpr double third = 1.0 / 3.0;
+    if (low >= waist.from && high <= waist.to) return { 1.0, { third, third, third }, {} };
+    return piece_of(
+        s, triangle, { { { 0.0, 0.0, 1.0 }, waist.to }, { { 0.0, 0.0, -1.0 }, -waist.from } });
+}
+
+/// Mean of a vector over a piece of a surface triangle; of a rigid grain that of its centre.
+Vector mean_at(const SolidState& s, int triangle, const Piece& piece, const Array<double>& values)
+{
+    if (!s.bodies.empty()) return space_vector(values, s.grains.centre(s.surface.grain[triangle]));
+    Vector sum;
+    for (int k = 0; k < 3; ++k)
+        sum = sum + piece.middle[k] * space_vector(values, s.surface.nodes[triangle][k]);
+    return sum;
+}
+
+/// Mean of both lateral strains at the waist, extension positive.
 double lateral_extension(const SolidState& s, const Array<double>& moved)
 {
-    double way = 0.0, whole = 0.0;
+    // sides that look against and along x, against and along y, by their areas across
+    Station sides[2][2];
+    const Waist waist = waist_of(s);
     for (int t = 0; t < triangles(s); ++t) {
         if (is_end(s.surface.side[t])) continue;
-        const Vector area = area_vector(s, t);
-        std::array<int, 3> nodes = s.surface.nodes[t];
-        if (!s.bodies.empty()) nodes.fill(s.grains.centre(s.surface.grain[t]));
-        for (int n : nodes) {
-            way += dot(area, space_vector(moved, n)) / 3.0;
-            whole += dot(area, space_vector(s.grains.reference, n)) / 3.0;
-        }
+        const Piece piece = piece_at(s, t, waist);
+        if (piece.share == 0.0) continue;
+        const Vector area = piece.share * area_vector(s, t);
+        const Vector place = mean_at(s, t, piece, s.grains.reference);
+        const Vector way = mean_at(s, t, piece, moved);
+        sides[0][area.x > 0.0].add(std::fabs(area.x), place.x, way.x);
+        sides[1][area.y > 0.0].add(std::fabs(area.y), place.y, way.y);
     }
-    return way / whole;
+    // a rigid grain from side to side has no strain across; a column of them has none at all
+    double sum = 0.0;
+    int ways = 0;
+    for (const auto& [low, high] : sides) {
+        if (!(apart(low, high) > 0.0)) continue;
+        sum += strain_between(low, high);
+        ++ways;
+    }
+    return ways > 0 ? sum / ways : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Growth of the distance between the outermost grains of a disc on both sides along x [m].

@@ -19,8 +19,9 @@ SolidExtent extent_of(const SolidState& s);
 
 /// Frame of a specimen between its ends. The axial strain is that between the means of the ends'
 /// nodes; of rigid grains that between bands at a quarter and three quarters of the height
-/// (deviation D21). The lateral one is the mean of both ways of a box, of a cylinder the mean way
-/// of the mantle over the radius.
+/// (deviation D21). The lateral one is the mean of those along x and y, each between the means of
+/// the mantle's two sides in the middle third of the height (deviation D80); nan of a single column
+/// of rigid grains.
 SolidFrame solid_frame(const SolidState& s, Sense sense);
 
 /// Frame of a disc between its plates: disc_frame() of the plane, its depth along y for the

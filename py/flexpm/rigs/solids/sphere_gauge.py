@@ -9,38 +9,51 @@ import numpy as np
 
 from ..._flexpm import StrainGauge
 from ...arrays import FloatArray
-from ...models.sphere_bonds import in_order
-from ...models.sphere_faces import outer_faces
+from ...models.sphere_faces import outer_faces, outer_heights
 from ...specimens.space.specimen import SolidSpecimen
 from ..rig import BOTTOM, TOP
 
-#: Columns across and along the axis, as a gauge of the plane takes them.
-_SECTION = [0, 2]
-
 
 class SphereGauge:
-    """Axial strain between bands of centres (D21), lateral strain by the mantle's ways (D80)."""
+    """Axial strain between bands of centres (D21), lateral strain at the waist (D80).
+
+    A face counts if it reaches into the middle third of the height.
+    """
 
     def __init__(self, specimen: SolidSpecimen) -> None:
-        """Find the faces of the mantle."""
+        """Find the faces of the mantle at the waist."""
         height = specimen.dimensions["height"]
-        self._bands = StrainGauge(0.0, height, specimen.mean_diameter, [], [])
         grains, sides, vectors = outer_faces(specimen)
-        mantle = ~np.isin(sides, (BOTTOM, TOP))
-        self._grains, self._vectors = grains[mantle], vectors[mantle]
+        lowest, highest = outer_heights(specimen)
+        at_waist = (highest > height / 3.0) & (lowest < 2.0 * height / 3.0)
+        waist = ~np.isin(sides, (BOTTOM, TOP)) & at_waist
+        grains, vectors = grains[waist], vectors[waist]
+
+        def shares(areas: FloatArray) -> list[tuple[int, float]]:
+            """Grains with their areas where these are above 0."""
+            there = areas > 0.0
+            return list(zip(grains[there].tolist(), areas[there].tolist(), strict=False))
+
+        self._across = [
+            StrainGauge(
+                0.0, height, specimen.mean_diameter, shares(-vectors[:, k]), shares(vectors[:, k])
+            )
+            for k in range(2)
+        ]
 
     def strains(self, centres: FloatArray, ways: FloatArray) -> tuple[float, float]:
-        """Axial strain, and the mean of both lateral strains [-].
+        """Axial strain, and the mean of both lateral strains [-]; nan of a single column.
 
         Args:
             centres: Where the centres were, (n, 3) [m].
             ways: Their displacements since, (n, 3) [m].
         """
-        axial, _ = self._bands.strains(
-            np.ascontiguousarray(centres[:, _SECTION]), np.ascontiguousarray(ways[:, _SECTION])
-        )
-        across = self._sum(centres)
-        return axial, self._sum(ways) / across if across else math.nan  # a single column
-
-    def _sum(self, values: FloatArray) -> float:
-        return in_order(np.sum(self._vectors * values[self._grains], axis=1).tolist())
+        axial, lateral = 0.0, []
+        for k, gauge in enumerate(self._across):
+            section = [k, 2]
+            axial, across = gauge.strains(
+                np.ascontiguousarray(centres[:, section]), np.ascontiguousarray(ways[:, section])
+            )
+            if math.isfinite(across):  # a layer of one grain has no strain across
+                lateral.append(across)
+        return axial, sum(lateral) / len(lateral) if lateral else math.nan
