@@ -183,8 +183,22 @@ def test_the_lateral_strain_is_that_of_the_waist():
         ends = np.abs(centres[:, 2] / height - 0.5) > 0.4
         even[ends, :2] = 0.1 * centres[ends, :2]
         assert gauge.strains(centres, even)[1] == pytest.approx(expected[1], rel=1e-9)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.02, 0.1])
+def test_a_layer_of_one_sphere_has_no_strain_across(shift):
+    rows = []
+    for i, k in np.ndindex(4, 6):  # they do not lie equally deep
+        off = shift * (1.0 if (i + k) % 2 else -1.0)
+        rows.append((SIZE * (i + 0.5), SIZE * (0.5 + off), SIZE * (k + 0.5), 0.5 * SIZE))
+    layer = Specimen.from_spheres(rows, width=4 * SIZE, depth=SIZE, height=6 * SIZE)
+    centres = np.array(layer.centres)
+    ways = centres * [3e-4, 1e-4, -5e-4]
+    ways[:, 1] += 1e-7 * np.arange(len(ways))
+    assert SphereGauge(layer).strains(centres, ways)[1] == pytest.approx(3e-4, rel=1e-6)
     column = cubes(1, 6)
-    assert math.isnan(SphereGauge(column).strains(np.array(column.centres), np.zeros((6, 3)))[1])
+    centres = np.array(column.centres)
+    assert math.isnan(SphereGauge(column).strains(centres, 1e-4 * centres)[1])
 
 
 @pytest.mark.parametrize("model", MODELS)

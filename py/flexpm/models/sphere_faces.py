@@ -38,13 +38,13 @@ def outer_faces(specimen: SolidSpecimen) -> tuple[IntArray, IntArray, FloatArray
     return faces[:, 0], np.array(specimen.outline().sides, dtype=int)[faces[:, 2]], vectors
 
 
-def outer_heights(specimen: SolidSpecimen) -> tuple[FloatArray, FloatArray]:
-    """Lowest and highest corner of each face on the outside along z, (n,) each [m]."""
+def outer_reach(specimen: SolidSpecimen) -> tuple[FloatArray, FloatArray]:
+    """Lowest and highest coordinates of each face on the outside, (n, 3) each [m]."""
     cells = specimen.cells
     offsets = np.array(cells.face_offsets[cells.contacts :], dtype=int)
     corners = np.array(cells.face_vertices[offsets[0] :], dtype=int)
-    heights, starts = np.array(cells.vertices)[corners, 2], offsets[:-1] - offsets[0]
-    return np.minimum.reduceat(heights, starts), np.maximum.reduceat(heights, starts)
+    places, starts = np.array(cells.vertices)[corners], offsets[:-1] - offsets[0]
+    return np.minimum.reduceat(places, starts), np.maximum.reduceat(places, starts)
 
 
 def _measures(

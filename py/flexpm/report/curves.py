@@ -103,7 +103,7 @@ def volumes_of(result: Result) -> Volumes | None:
 
     damage, begun = "at its largest: crack damage", "at its point: crack initiation"
     lines = [line("total", total, result.crack_damage_stress, damage)]
-    modulus, ratio = result.youngs_modulus, result.poissons_ratio
+    modulus, ratio = result.start_moduli
     if peak is not None and modulus is not None and ratio is not None:
         elastic = core.elastic_volumetric_strain(record, modulus, ratio, solid=solid)[:end]
         initiation = result.crack_initiation_stress_volumetric

@@ -18,7 +18,7 @@ from .record import Curve
 INITIATION_SHARE = 0.01
 #: Crack volumetric strain over the elastic one at which cracks have begun [-].
 CRACK_STRAIN_SHARE = 0.02
-#: Column of a solid's record; of the plane it is the difference of two others.
+#: Column of the record.
 VOLUME = "volumetric_strain"
 
 
@@ -27,9 +27,9 @@ def volumetric_strain(curve: Curve, *, solid: bool) -> FloatArray:
     return curve["axial_strain"] - (2.0 if solid else 1.0) * curve["lateral_strain"]
 
 
-def with_volume(curve: Curve) -> Curve:
-    """The record of a solid with its volumetric strain as a column of its own."""
-    volume = volumetric_strain(curve, solid=True)
+def with_volume(curve: Curve, *, solid: bool) -> Curve:
+    """The record with its volumetric strain as a column of its own; of the plane that of area."""
+    volume = volumetric_strain(curve, solid=solid)
     return Curve.from_array(np.column_stack([curve.array, volume]), (*curve.own, VOLUME))
 
 
@@ -44,8 +44,8 @@ def elastic_volumetric_strain(
 
     Args:
         curve: The record.
-        modulus: Young's modulus of the test [Pa].
-        ratio: Poisson's ratio of the test [-].
+        modulus: Young's modulus as the loading starts [Pa].
+        ratio: Poisson's ratio as the loading starts [-].
         solid: The specimen is one of space.
     """
     stress, strain = curve["axial_stress"], curve["axial_strain"]

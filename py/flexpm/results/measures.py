@@ -107,6 +107,16 @@ def elastic_poissons_ratio(curve: Curve) -> float | None:
     return _slope(curve["axial_strain"][rows], curve["lateral_strain"][rows])
 
 
+def start_moduli(curve: Curve) -> tuple[float | None, float | None]:
+    """Young's modulus [Pa] and Poisson's ratio [-] between the first two rows.
+
+    For tests that begin with the motion of the elastic solution, before contact points soften.
+    """
+    strain = curve["axial_strain"][:2]
+    stress, lateral = differential_stress(curve)[:2], curve["lateral_strain"][:2]
+    return _slope(strain, stress, fewest=2), _slope(strain, lateral, fewest=2)
+
+
 def softening_slope(curve: Curve) -> float | None:
     """Slope of stress over strain from the peak to half of it, or to the end [Pa]."""
     peak = peak_row(curve)

@@ -205,15 +205,25 @@ class Result(Shown):
         self.status = self._status(diverged, peak, fast)
 
     def measure_core(self, *, solid: bool) -> None:
-        """Fill what a laboratory reads off a compressed core; a solid's record gets its volume."""
-        record, moduli = self.curve, (self.youngs_modulus, self.poissons_ratio)
+        """Fill what a laboratory reads off a compressed core; the record gets its volume."""
+        record = self.curve
         self.crack_initiation_stress = core.crack_initiation_stress(record)
         self.crack_initiation_stress_volumetric = core.crack_initiation_stress_volumetric(
-            record, *moduli, solid=solid
+            record, *self.start_moduli, solid=solid
         )
         self.crack_damage_stress = core.crack_damage_stress(record, solid=solid)
-        if solid:
-            self.curve = core.with_volume(record)
+        self.curve = core.with_volume(record, solid=solid)
+
+    @property
+    def start_moduli(self) -> tuple[float | None, float | None]:
+        """Young's modulus [Pa] and Poisson's ratio [-] of the elastic start of the loading.
+
+        Models without one, those of particles and of spheres, have those of the record's elastic
+        part.
+        """
+        if self.model in _SOFTENING:
+            return measures.start_moduli(self.curve)
+        return self.youngs_modulus, self.poissons_ratio
 
     def measure_wave(self, wave: str, distance: float) -> None:
         """Fill the speed of a pulse.

@@ -150,7 +150,7 @@ TEST_CASE("The lateral strain is that at the waist, wherever the specimen goes",
 {
     const double along_x = 3e-4, along_y = 1e-4, expected = 0.5 * (along_x + along_y);
     for (const bool rigid : { false, true }) {
-        const Packing p = box(120, 2);
+        const Packing p = box(rigid ? 120 : 1000, 2);
         // centres of both sides do not lie equally high
         const double tilt = rigid ? 0.0 : 0.2;
         const auto even = [=](Vector r) {
@@ -167,32 +167,47 @@ TEST_CASE("The lateral strain is that at the waist, wherever the specimen goes",
             return end ? Vector { 0.1 * r.x, -0.3 * r.y, 0.0 } : even(r);
         });
         CHECK(lateral_strain(s, Sense::compression) == Approx(expected).epsilon(1e-9));
-        // twice the strain below, three times above: of a linear one the waist has the middle's
+        if (rigid) continue;
+        // a strain that grows with the square of the distance from the middle pins the third, up to
+        // what straight triangles add
         move(s, [&](Vector r) {
-            const double more = rigid ? 1.0 : 2.0 + r.z / height;
-            return Vector { more * along_x * r.x, more * along_y * r.y, 0.0 };
+            const double up = r.z / height - 0.5;
+            return Vector { up * up * r.x, up * up * r.y, 0.0 };
         });
-        CHECK(lateral_strain(s, Sense::compression)
-            == Approx((rigid ? 1.0 : 2.5) * expected).epsilon(1e-2));
+        const double found = lateral_strain(s, Sense::compression);
+        CHECK(found > 1.0 / 108.0);
+        CHECK(found < 1.15 / 108.0);
     }
 }
 
 TEST_CASE("A layer of one rigid grain has no strain across, a column none at all", "[solids]")
 {
-    for (const int deep : { 2, 1 }) {
-        for (const int wide : { 2, 1 }) {
-            const Packing p = column(wide, deep, 6);
-            SolidState s =
-                make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, true));
-            move(s, [](Vector r) { return Vector { 3e-4 * r.x, 1e-4 * r.y, 0.0 }; });
-            const double found = lateral_strain(s, Sense::compression);
-            if (wide + deep == 2) {
-                CHECK(std::isnan(found));
-            } else {
-                const double expected = wide == 1 ? 1e-4 : deep == 1 ? 3e-4 : 2e-4;
-                CHECK(found == Approx(expected).epsilon(1e-9));
+    const double side = solid_samples::side;
+    const auto strain = [&](int wide, int deep, double shift) {
+        // in a layer grains do not lie equally deep
+        const Solid solid = Solid::box(wide * side, deep * side, 6.0 * side);
+        std::vector<Sphere> spheres;
+        for (int k = 0; k < 6; ++k) {
+            for (int j = 0; j < deep; ++j) {
+                for (int i = 0; i < wide; ++i) {
+                    const double off = shift * side * ((i + k) % 2 ? 1.0 : -1.0);
+                    spheres.push_back(
+                        { { (i + 0.5) * side + off, (j + 0.5) * side + off, (k + 0.5) * side },
+                            0.5 * side });
+                }
             }
         }
+        SolidState s = make_solid(
+            polyhedra(spheres, solid, {}), solid, granite(FacePointRule::corners_and_inner, true));
+        move(s, [](Vector r) { return Vector { 3e-4 * r.x, 1e-4 * r.y + 1e-6 * r.z, 0.0 }; });
+        return lateral_strain(s, Sense::compression);
+    };
+    for (const double shift : { 0.0, 0.02, 0.1 }) {
+        CAPTURE(shift);
+        CHECK(strain(4, 1, shift) == Approx(3e-4).epsilon(1e-6));
+        CHECK(strain(1, 4, shift) == Approx(1e-4).epsilon(2e-2));
+        CHECK(strain(2, 2, shift) == Approx(2e-4).epsilon(2e-2));
+        CHECK(std::isnan(strain(1, 1, shift)));
     }
 }
 
@@ -323,8 +338,9 @@ TEST_CASE("Rough plates hold grains across as far as friction bears it", "[solid
         CHECK(stress[1] < stress[2]);
         CHECK(lateral[0] > lateral[1]);
         CHECK(lateral[1] > lateral[2]);
-        // the waist hardly feels what holds the ends
-        CHECK(waist[2] / waist[0] == Approx(1.0).epsilon(0.05));
+        // the waist feels less of what holds the ends
+        CHECK(
+            std::fabs(waist[2] / waist[0] - 1.0) < 0.5 * std::fabs(lateral[2] / lateral[0] - 1.0));
     }
     SolidState pulled = held(p, true, true);
     CHECK_THROWS_WITH(roughen_plates(pulled, 0.2), Catch::Contains("must be 2 that press"));

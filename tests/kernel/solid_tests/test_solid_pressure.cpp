@@ -333,7 +333,6 @@ TEST_CASE("Three equal pressures strain a stiffly bonded solid as elasticity say
         CHECK(strain == Approx(-expected).epsilon(5e-3));
     }
     CHECK(now.axial_strain == Approx(expected).epsilon(5e-3));
-    // few grains lie at the waist
     CHECK(-now.lateral_strain == Approx(expected).epsilon(5e-3));
     CHECK(now.confinement == pressure);
     CHECK(std::fabs(balance_of(now.energies)) < 1e-4 * now.energies.elastic);

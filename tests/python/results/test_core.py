@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from flexpm.results import core
+from flexpm.results import core, measures
 from flexpm.results.record import COLUMNS, Curve
 
 E, NU = 50e9, 0.25
@@ -64,10 +64,19 @@ def test_the_volume_of_elasticity():
     assert total[600] == pytest.approx((1 - 2 * NU) * PEAK / E)
     plane = core.volumetric_strain(record, solid=False)
     assert plane[600] == pytest.approx((1 - NU) * PEAK / E)
-    with_it = core.with_volume(record)
+    with_it = core.with_volume(record, solid=True)
     assert with_it.own == ("volumetric_strain",)
     assert np.array_equal(with_it["volumetric_strain"], total)
     assert np.array_equal(with_it["axial_stress"], record["axial_stress"])
+
+
+def test_the_moduli_of_the_start_are_those_of_the_first_rows():
+    softens = curve(solid=True, start=2e6, own_lateral=lambda axial: NU * axial + 50.0 * axial**2)
+    modulus, ratio = measures.start_moduli(softens)
+    assert modulus == pytest.approx(E)
+    assert ratio == pytest.approx(NU, rel=1e-3)
+    assert measures.poissons_ratio(softens) > 1.04 * NU
+    assert measures.start_moduli(softens.until(0)) == (None, None)
 
 
 def test_what_a_curve_does_not_tell_is_none():

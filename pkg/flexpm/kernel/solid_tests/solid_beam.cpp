@@ -84,7 +84,7 @@ Plate plate_along(const SolidState& s, SolidSide side, const BearingLine& line)
 {
     check_positive("width of a line plate", line.width, "m");
     check_finite("place of a line plate", line.x + line.z, "m");
-    if (side != SolidSide::bottom && side != SolidSide::top) {
+    if (!is_end(side)) {
         refuse("add_line_plate: side", static_cast<int>(side), "",
             "must be 0, the bottom, or 2, the top");
     }

@@ -20,11 +20,6 @@ namespace {
 
 constexpr int axial = 2;
 
-bool is_end(int side)
-{
-    return side == static_cast<int>(SolidSide::bottom) || side == static_cast<int>(SolidSide::top);
-}
-
 int triangles(const SolidState& s) { return static_cast<int>(s.surface.side.size()); }
 
 double mean_of(const SolidState& s, const Array<double>& values, SolidSide side)
@@ -86,27 +81,37 @@ struct Waist {
     double to = 0.0;
 };
 
+/// The middle third of the surface.
 Waist waist_of(const SolidState& s)
 {
-    const double bottom = mean_of(s, s.grains.reference, SolidSide::bottom);
-    const double top = mean_of(s, s.grains.reference, SolidSide::top);
+    double bottom = std::numeric_limits<double>::infinity(), top = -bottom;
+    for (const auto& nodes : s.surface.nodes) {
+        for (int n : nodes) {
+            const double z = space_vector(s.grains.reference, n).z;
+            bottom = std::min(bottom, z);
+            top = std::max(top, z);
+        }
+    }
     return { bottom + (top - bottom) / 3.0, top - (top - bottom) / 3.0 };
 }
 
 /// Part of a surface triangle at the waist; most lie within or beyond it as a whole.
 Piece piece_at(const SolidState& s, int triangle, const Waist& waist)
 {
+    const auto& nodes = s.surface.nodes[triangle];
     double low = waist.to, high = waist.from;
-    for (int n : s.surface.nodes[triangle]) {
+    for (int n : nodes) {
         const double z = space_vector(s.grains.reference, n).z;
         low = std::min(low, z);
         high = std::max(high, z);
     }
     if (low >= waist.to || high <= waist.from) return {};
+    if (low < waist.from || high > waist.to) {
+        return piece_of(
+            s, triangle, { { { 0.0, 0.0, 1.0 }, waist.to }, { { 0.0, 0.0, -1.0 }, -waist.from } });
+    }
     constexpr double third = 1.0 / 3.0;
-    if (low >= waist.from && high <= waist.to) return { 1.0, { third, third, third }, {} };
-    return piece_of(
-        s, triangle, { { { 0.0, 0.0, 1.0 }, waist.to }, { { 0.0, 0.0, -1.0 }, -waist.from } });
+    return { 1.0, { third, third, third }, middle(s.grains.reference, nodes) };
 }
 
 /// Mean of a vector over a piece of a surface triangle; of a rigid grain that of its centre.
@@ -119,28 +124,44 @@ Vector mean_at(const SolidState& s, int triangle, const Piece& piece, const Arra
     return sum;
 }
 
-/// Mean of both lateral strains at the waist, extension positive.
+/// Two sides of the mantle across from each other, by the areas of their pieces across.
+struct Across {
+    Station faces[2], grains[2];
+
+    void add(double area, double face, double place, double way)
+    {
+        const bool far = area > 0.0;
+        faces[far].add(std::fabs(area), face, way);
+        grains[far].add(std::fabs(area), place, way);
+    }
+    /// Both distances are one for deformable grains; for rigid grains side by side that of the
+    /// centres is half or more. Less of it belongs to a layer of one grain, which has no strain.
+    bool has_strain() const
+    {
+        return apart(grains[0], grains[1]) > 0.25 * apart(faces[0], faces[1]);
+    }
+};
+
+/// Mean of the lateral strains along x and y at the waist, extension positive.
 double lateral_extension(const SolidState& s, const Array<double>& moved)
 {
-    // sides that look against and along x, against and along y, by their areas across
-    Station sides[2][2];
+    Across along_x, along_y;
     const Waist waist = waist_of(s);
     for (int t = 0; t < triangles(s); ++t) {
-        if (is_end(s.surface.side[t])) continue;
+        if (is_end(static_cast<SolidSide>(s.surface.side[t]))) continue;
         const Piece piece = piece_at(s, t, waist);
         if (piece.share == 0.0) continue;
         const Vector area = piece.share * area_vector(s, t);
         const Vector place = mean_at(s, t, piece, s.grains.reference);
         const Vector way = mean_at(s, t, piece, moved);
-        sides[0][area.x > 0.0].add(std::fabs(area.x), place.x, way.x);
-        sides[1][area.y > 0.0].add(std::fabs(area.y), place.y, way.y);
+        along_x.add(area.x, piece.place.x, place.x, way.x);
+        along_y.add(area.y, piece.place.y, place.y, way.y);
     }
-    // a rigid grain from side to side has no strain across; a column of them has none at all
     double sum = 0.0;
     int ways = 0;
-    for (const auto& [low, high] : sides) {
-        if (!(apart(low, high) > 0.0)) continue;
-        sum += strain_between(low, high);
+    for (const Across* way : { &along_x, &along_y }) {
+        if (!way->has_strain()) continue;
+        sum += strain_between(way->grains[0], way->grains[1]);
         ++ways;
     }
     return ways > 0 ? sum / ways : std::numeric_limits<double>::quiet_NaN();

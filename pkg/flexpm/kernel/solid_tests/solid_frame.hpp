@@ -20,8 +20,8 @@ SolidExtent extent_of(const SolidState& s);
 /// Frame of a specimen between its ends. The axial strain is that between the means of the ends'
 /// nodes; of rigid grains that between bands at a quarter and three quarters of the height
 /// (deviation D21). The lateral one is the mean of those along x and y, each between the means of
-/// the mantle's two sides in the middle third of the height (deviation D80); nan of a single column
-/// of rigid grains.
+/// the mantle's two sides in the middle third of the height (deviation D80). A layer of one rigid
+/// grain has only the other one, a column of them nan.
 SolidFrame solid_frame(const SolidState& s, Sense sense);
 
 /// Frame of a disc between its plates: disc_frame() of the plane, its depth along y for the

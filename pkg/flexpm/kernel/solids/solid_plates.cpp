@@ -249,7 +249,7 @@ Plate plain_plate(const SolidState& s, SolidSide side)
 void add_end_plate(SolidState& s, SolidSide side, bool bonded)
 {
     const int number = static_cast<int>(side);
-    if (side != SolidSide::bottom && side != SolidSide::top)
+    if (!is_end(side))
         refuse("add_end_plate: side", number, "", "must be 0, the bottom, or 2, the top");
     if (find_plate(s, side) >= 0)
         refuse("add_end_plate: side", number, "", "must be without a plate; it has one");

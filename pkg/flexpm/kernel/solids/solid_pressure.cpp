@@ -12,11 +12,6 @@ namespace flexpm {
 
 namespace {
 
-bool is_end(int side)
-{
-    return side == static_cast<int>(SolidSide::bottom) || side == static_cast<int>(SolidSide::top);
-}
-
 int triangles(const SolidState& s) { return static_cast<int>(s.surface.side.size()); }
 
 Vector place(const SolidState& s, int node)
@@ -69,7 +64,7 @@ double least_side_pressure(const SolidState& s)
     double least = 0.0;
     bool any = false;
     for (std::size_t t = 0; t < s.surface.pressure.size(); ++t) {
-        if (is_end(s.surface.side[t])) continue;
+        if (is_end(static_cast<SolidSide>(s.surface.side[t]))) continue;
         least = any ? std::min(least, s.surface.pressure[t]) : s.surface.pressure[t];
         any = true;
     }

@@ -21,6 +21,11 @@ enum class SolidSide {
     notch = 6
 };
 
+constexpr bool is_end(SolidSide side)
+{
+    return side == SolidSide::bottom || side == SolidSide::top;
+}
+
 /// Plane that bounds a solid: points p with dot(normal, p) > offset lie outside.
 struct Wall {
     Vector normal;  ///< outwards, of length 1

@@ -195,7 +195,7 @@ SolidExtension solid_extension(const Polyhedra& cells, const Solid& solid,
     // Gauss: the sum of both lateral strains times the volume
     for (const Facet& f : g.facets) {
         const Wall& wall = solid.walls[f.wall];
-        if (wall.side == SolidSide::bottom || wall.side == SolidSide::top) continue;
+        if (is_end(wall.side)) continue;
         for (int n : f.nodes)
             widening += f.area / 3.0 * dot(wall.normal, triple_at(u.data(), n));
     }
