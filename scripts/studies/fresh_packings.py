@@ -13,13 +13,12 @@ passes over rows that are there. SI units. The second command prints means and s
 from __future__ import annotations
 
 import argparse
-import csv
 import math
 import statistics
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from growing_table import add_row
+from growing_table import add_row, rows_of
 
 import flexpm
 from flexpm.results.strength import mohr_coulomb
@@ -91,10 +90,6 @@ def row_of(preset: Preset, confinement: float, seed: int, *, split: bool) -> lis
 
 def read(table: Path) -> dict[Case, dict[str, str]]:
     """Rows that are there."""
-    if not table.exists():
-        return {}
-    with table.open(encoding="utf-8", newline="") as file:
-        rows = [*csv.DictReader(file)]
     return {
         Case(
             row["preset"],
@@ -102,7 +97,7 @@ def read(table: Path) -> dict[Case, dict[str, str]]:
             row["test"] == "brazilian",
             int(row["seed"]),
         ): row
-        for row in rows
+        for row in rows_of(table)
     }
 
 

@@ -9,6 +9,14 @@ from pathlib import Path
 from typing import Any
 
 
+def rows_of(table: Path) -> list[dict[str, str]]:
+    """Rows that are there."""
+    if not table.exists():
+        return []
+    with table.open(encoding="utf-8", newline="") as file:
+        return [*csv.DictReader(file)]
+
+
 def add_row(table: Path, columns: Iterable[str], row: Iterable[Any]) -> None:
     """Append a row to a CSV table, which begins with its columns if it is new."""
     new = not table.exists()

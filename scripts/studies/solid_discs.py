@@ -23,7 +23,6 @@ scripts/setup has built; the second command prints means and standard errors:
 from __future__ import annotations
 
 import argparse
-import csv
 import itertools
 import math
 import statistics
@@ -33,7 +32,7 @@ from pathlib import Path
 from typing import NamedTuple, get_type_hints
 
 import numpy as np
-from growing_table import add_row
+from growing_table import add_row, rows_of
 from scipy.sparse import coo_matrix, diags
 from scipy.sparse.linalg import cg
 
@@ -303,12 +302,8 @@ def row_of(case: Case) -> list[object]:
 
 def read(table: Path) -> dict[Case, dict[str, str]]:
     """Rows that are there."""
-    if not table.exists():
-        return {}
-    with table.open(encoding="utf-8", newline="") as file:
-        rows = [*csv.DictReader(file)]
     kinds = get_type_hints(Case)
-    return {Case(*(kinds[name](row[name]) for name in Case._fields)): row for row in rows}
+    return {Case(*(kinds[name](row[name]) for name in Case._fields)): row for row in rows_of(table)}
 
 
 def print_table(rows: dict[Case, dict[str, str]]) -> None:

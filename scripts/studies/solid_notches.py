@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from growing_table import add_row
+from growing_table import add_row, rows_of
 from plane_in_space import BACK, FRONT, prisms
 
 import flexpm
@@ -208,12 +208,17 @@ def main() -> None:
     parser.add_argument("across", type=int, help="grains over the height")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
+    case = (options.kind, options.across, options.seed)
+    if any(
+        (row["kind"], int(row["across"]), int(row["seed"])) == case
+        for row in rows_of(options.table)
+    ):
+        return
     began = time.process_time()
     grains, found, plane = KINDS[options.kind](options.across, options.seed)
     of = "" if plane is None else found.intensity / plane.intensity
-    case = (options.kind, options.across, options.seed, grains)
     seconds = round(time.process_time() - began)
-    add_row(options.table, FIELDS, (*case, found.intensity, of, found.modulus, seconds))
+    add_row(options.table, FIELDS, (*case, grains, found.intensity, of, found.modulus, seconds))
 
 
 if __name__ == "__main__":

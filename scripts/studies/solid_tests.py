@@ -14,12 +14,11 @@ SI units. The second command prints means:
 from __future__ import annotations
 
 import argparse
-import csv
 import statistics
 from pathlib import Path
 from typing import Any
 
-from growing_table import add_row
+from growing_table import add_row, rows_of
 
 import flexpm
 from flexpm.errors import InputError
@@ -80,10 +79,7 @@ def row_of(case: str, model: str, seed: int) -> list[object]:
 
 def read(table: Path) -> dict[tuple[str, str, int], dict[str, str]]:
     """Rows that are there."""
-    if not table.exists():
-        return {}
-    with table.open(encoding="utf-8", newline="") as file:
-        return {(row["case"], row["model"], int(row["seed"])): row for row in csv.DictReader(file)}
+    return {(row["case"], row["model"], int(row["seed"])): row for row in rows_of(table)}
 
 
 def main() -> None:

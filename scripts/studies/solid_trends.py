@@ -29,7 +29,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
-from growing_table import add_row
+from growing_table import add_row, rows_of
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
@@ -66,7 +66,7 @@ class Run(NamedTuple):
 
 FIELDS = (
     *Run._fields,
-    *("peak_stress", "youngs_modulus", "crack_initiation_stress", "crack_damage_stress"),
+    *("peak_stress", "youngs_modulus", "crack_initiation_stress"),
     *("grains", "steps", "largest_overlap", "status"),
 )
 
@@ -134,13 +134,12 @@ def row_of(run: Run) -> list[object]:
     try:
         found = flexpm.run(run.test, specimen, material_of(run), run.model, **options)
     except SimulationError as error:  # a specimen that does not bear its pressures
-        return [*run, None, None, None, None, len(specimen.radii), None, None, str(error)[:60]]
+        return [*run, None, None, None, len(specimen.radii), None, None, str(error)[:60]]
     return [
         *run,
         found.peak_stress,
         found.youngs_modulus,
         getattr(found, "crack_initiation_stress", None),
-        getattr(found, "crack_damage_stress", None),
         len(specimen.radii),
         found.steps,
         found.largest_overlap,
@@ -150,12 +149,8 @@ def row_of(run: Run) -> list[object]:
 
 def read(table: Path) -> dict[Run, dict[str, str]]:
     """Rows that are there."""
-    if not table.exists():
-        return {}
-    with table.open(encoding="utf-8", newline="") as file:
-        rows = [*csv.DictReader(file)]
     kinds = get_type_hints(Run)
-    return {Run(*(kinds[name](row[name]) for name in Run._fields)): row for row in rows}
+    return {Run(*(kinds[name](row[name]) for name in Run._fields)): row for row in rows_of(table)}
 
 
 class Mean(NamedTuple):
