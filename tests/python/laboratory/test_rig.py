@@ -80,7 +80,8 @@ def test_a_test_of_stages_is_the_test_of_that_name(rectangle, model, kind):
     expected = flexpm.run(
         "biaxial", rectangle, model=model, confinement=3e6, rate=8.0, max_strain=3e-4
     )
-    assert np.array_equal(rig.record.array, expected.curve.array, equal_nan=True)
+    assert expected.curve.own == ("volumetric_strain",)
+    assert np.array_equal(rig.record.array, expected.curve.array[:, :-1], equal_nan=True)
 
 
 def test_a_loading_goes_on_to_the_end_after_other_stages(rectangle):

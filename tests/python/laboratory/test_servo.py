@@ -176,7 +176,7 @@ def test_brittle_grains_show_a_branch_of_class_two(compressed):
     assert result.softening_slope > 0.0
     assert np.mean(np.abs(lateral / curve["set_point"] - 1.0) < 0.02) > 0.95
     again = flexpm.Result.read(folder)
-    assert again.curve.own == ("set_point",)
+    assert again.curve.own == ("set_point", "volumetric_strain")
     assert again.inputs["control"] == "lateral"
 
 
