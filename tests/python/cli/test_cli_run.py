@@ -49,8 +49,9 @@ def test_the_files_of_a_run_agree(finished):
     folder = finished[1]
     result = json.loads((folder / "result.json").read_text())
     with (folder / "curve.csv").open() as file:
-        rows = [[float(cell) for cell in row] for row in list(csv.reader(file))[1:]]
-    record = Curve.from_columns(COLUMNS, np.array(rows))
+        names, *rows = csv.reader(file)
+    assert names == [*COLUMNS, "volumetric_strain"]
+    record = Curve.from_columns(names, np.array(rows, dtype=float), names[-1:])
     assert result["youngs_modulus"] == measures.youngs_modulus(record)
     assert result["poissons_ratio"] == measures.poissons_ratio(record)
     assert result["peak_stress"] == record["axial_stress"].max()

@@ -156,7 +156,8 @@ def test_ends_with_friction_hold_a_core_across(core, model, tmp_path, monkeypatc
     assert first[1] == pytest.approx(first[0], rel=0.03)  # a plate begins at what the pressure was
     assert rough.energy_error < 0.01
     assert 1.0 < rough.curve["axial_stress"][-1] / smooth.curve["axial_stress"][-1] < 1.2
-    assert rough.curve["lateral_strain"][-1] < smooth.curve["lateral_strain"][-1]
+    waist = [one.curve["lateral_strain"][-1] for one in (smooth, rough)]
+    assert waist[1] == pytest.approx(waist[0], rel=0.05)  # it hardly feels what holds the ends
     assert same(flexpm.run("triaxial", core, threads=2, end_friction=0.3, **asked), rough)
 
     asked["end_friction"] = 0.3

@@ -41,7 +41,7 @@ def inputs_of(rows: pandas.DataFrame) -> list[dict]:
 
 
 def test_the_tables_of_all_studies_are_there():
-    assert len(STUDIES) == 11
+    assert len(STUDIES) == 10
     assert [path.stem for path in TABLES if path not in STUDIES] == ["readings"]
 
 
