@@ -194,7 +194,7 @@ class RigReadings(ABC):
 
     @abstractmethod
     def unbalanced(self) -> float:
-        """Largest unbalanced force over the mean contact force [-]."""
+        """Ratio of the largest unbalanced force to the mean contact force [-]."""
 
     @abstractmethod
     def balance(self) -> Balance:

@@ -2,6 +2,7 @@
 /// @file  Plates against facets.
 #include <flexpm/kernel/forces/plate_contact.hpp>
 
+#include <flexpm/kernel/assembly/loose_groups.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/soft_plate.hpp>
 #include <flexpm/kernel/motion/loaded_plate.hpp>
@@ -64,13 +65,6 @@ Vector touch(Assembly& a, Plate& plate, double give, double dt)
     return total;
 }
 
-/// Whether a plate lies before a grain that is not loose.
-bool bears_any(const Assembly& a, const Plate& plate)
-{
-    return std::any_of(plate.facets.begin(), plate.facets.end(),
-        [&](int f) { return !a.grains.loose[a.facets.grain[f]]; });
-}
-
 void update_plate(Assembly& a, std::size_t number, double dt, double damping)
 {
     Plate& plate = a.plates[number];
@@ -83,7 +77,7 @@ void update_plate(Assembly& a, std::size_t number, double dt, double damping)
         plate.machine_give = dot(plate.normal, plate.force) / plate.machine_stiffness;
     if (plate.loaded) {
         const double undamped = dot(plate.normal, a.loading.of_plate(number).velocity);
-        integrate_loaded(plate, undamped, bears_any(a, plate), dt, damping);
+        integrate_loaded(plate, undamped, bears_any(plate, a.facets.grain, a.grains), dt, damping);
     } else if (machine) {
         plate.boundary_work += dot(0.5 * (before + plate.force), plate.displacement - from);
     } else {

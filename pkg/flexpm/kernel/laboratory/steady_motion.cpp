@@ -56,10 +56,9 @@ public:
             a.steady.mean.spin[slot] = std::clamp(turn / time, -most, most);
     }
 
-    /// What has come loose has no part in the descent: all of its motion is damped.
-    void leave(int grain) const
+    void damp(int grain) const
     {
-        for_each_component(a.grains, grain, [&](int i) { take(i, 0.0); });
+        damp_loose(a.grains, a.steady.mean, grain);
         if (a.grains.is_rigid(grain)) take_spin(grain, 0.0);
     }
 
@@ -81,7 +80,7 @@ void take_mean(Assembly& a, const Array<double>& angle, double time, double fast
         if (grains.erased[g]) continue;
         const int slot = grains.slot[g];
         if (grains.loose[g]) {
-            mean.leave(g);
+            mean.damp(g);
         } else if (grains.is_rigid(g)) {
             mean.take(grains.centre(g));
             mean.take_spin(g, angle[slot] - a.steady.angle[slot]);
@@ -110,5 +109,12 @@ void follow_steady_motion(Assembly& a, double dt, double fastest)
 }
 
 void end_steady_motion(Assembly& a) { a.steady = {}; }
+
+void damp_loose(const Grains& grains, GrainMotion& mean, int grain)
+{
+    for_each_component(grains, grain, [&](int i) {
+        if (!grains.prescribed[i]) mean.velocity[i] = 0.0;
+    });
+}
 
 }  // namespace flexpm

@@ -21,4 +21,8 @@ void follow_steady_motion(Assembly& a, double dt, double fastest);
 /// Let it leave alone that of the loading again.
 void end_steady_motion(Assembly& a);
 
+/// Damp all of the motion of a grain that has come loose, in the plane or in space: it has no part
+/// in the descent (deviation D57). Spins are the caller's.
+void damp_loose(const Grains& grains, GrainMotion& mean, int grain);
+
 }  // namespace flexpm

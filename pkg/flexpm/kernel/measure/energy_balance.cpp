@@ -9,6 +9,7 @@
 #include <flexpm/kernel/forces/node_sets.hpp>
 #include <flexpm/kernel/forces/plate_contact.hpp>
 #include <flexpm/kernel/measure/energy_sums.hpp>
+#include <flexpm/kernel/measure/part_sums.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
 
 #include <algorithm>
@@ -19,14 +20,6 @@
 namespace flexpm {
 
 namespace {
-
-double first_of_pairs(const Array<double>& values)
-{
-    double total = 0.0;
-    for (std::size_t i = 0; i < values.size(); i += 2)
-        total += values[i];
-    return total;
-}
 
 FLEXPM_INLINE bool all_finite(const double* values, int count)
 {
@@ -61,19 +54,7 @@ double damping_power(const Assembly& a, double damping)
         for (int n = 0; n < grains.nodes_of(g); ++n)
             add_vector(grains.force_at(grains.node(g, n)), grains.node(g, n));
     }
-    for (std::size_t i = 0; i < a.plates.size(); ++i) {
-        const Plate& p = a.plates[i];
-        if (!p.loaded) continue;
-        add(p.unbalanced, dot(p.normal, p.velocity - a.loading.of_plate(i).velocity));
-    }
-    for (std::size_t i = 0; i < a.node_sets.size(); ++i) {
-        const NodeSet& set = a.node_sets[i];
-        if (!set.floats) continue;
-        const Vector v = set.velocity - a.loading.of_set(i).velocity;
-        add(set.force.x, v.x);
-        add(set.force.y, v.y);
-        add(set.force.z, v.z);
-    }
+    for_each_damped_part(a, add);
     return damping * total;
 }
 
@@ -100,50 +81,15 @@ double kinetic_of_velocities(const Grains& grains)
     return total;
 }
 
-Dissipation dissipation(const Assembly& a)
-{
-    const ContactLoss contact = contact_loss(a.contacts);
-    Dissipation d;
-    d.damage = contact.damage + a.ledger.removed_damage;
-    d.friction = contact.friction + a.ledger.removed_friction;
-    d.boundary_work = first_of_pairs(a.ledger.prescribed_work) + a.ledger.pressure_work;
-    for (const Plate& p : a.plates) {
-        d.friction += p.friction_energy;
-        d.boundary_work += p.boundary_work;
-    }
-    for (const NodeSet& set : a.node_sets)
-        d.boundary_work -= set.float_work;  // which the ledger holds as work on its nodes
-    return d;
-}
+Dissipation dissipation(const Assembly& a) { return dissipation_of(a, contact_loss(a.contacts)); }
 
 Energies energies(const Assembly& a)
 {
-    const Dissipation d = dissipation(a);
-    Energies e;
-    for (double k : a.ledger.kinetic)
-        e.kinetic += k;
-    e.elastic = strain_energy(a.grains) + contact_energy(a.contacts);
-    e.damage = d.damage;
+    const double stored = strain_energy(a.grains) + contact_energy(a.contacts);
+    Energies e =
+        energies_of(a, dissipation(a), stored, [](const Plate& p) { return elastic_energy(p); });
     e.softened = softened_energy(a.contacts);
-    e.friction = d.friction;
-    double damped = first_of_pairs(a.ledger.damping_work);
-    e.drag = first_of_pairs(a.ledger.drag_work);
     e.potential = potential_energy(a);
-    e.erased = a.ledger.erased;
-    e.boundary_work = d.boundary_work;
-    for (const Plate& p : a.plates) {
-        e.kinetic += p.kinetic;
-        e.elastic += elastic_energy(p);
-        damped += p.damping_work;
-        e.drag += p.drag_work;
-    }
-    for (const NodeSet& set : a.node_sets) {
-        e.kinetic += set.kinetic;
-        damped += set.damping_work;
-        e.drag += set.drag_work;
-    }
-    e.damping = damped - e.drag;
-    e.initial = a.ledger.initial;
     return e;
 }
 
@@ -184,18 +130,10 @@ void reset_energy_balance(Assembly& a)
 
 double unbalanced_ratio(const Assembly& a)
 {
-    const auto& forces = a.ledger.largest_force;
-    double largest = *std::max_element(forces.begin(), forces.end());
-    for (const Plate& p : a.plates)
-        largest = std::max(largest, p.unbalanced);
-    for (const NodeSet& set : a.node_sets)
-        largest = std::max(largest, set.unbalanced);
     const auto& erased = a.contacts.erased;
     const auto left = a.contacts.count - std::count(erased.begin(), erased.end(), 1);
-    const double sum = sum_of_forces(a.contacts);
-    if (sum > 0.0) return largest * static_cast<double>(left) / sum;
-    // a specimen that flies apart is not in balance
-    return left > 0 && largest > 0.0 ? 1.0 : 0.0;
+    return ratio_of_forces(largest_unbalanced(a, a.facets.grain), static_cast<double>(left),
+        sum_of_forces(a.contacts));
 }
 
 CrackCount count_cracks(const Assembly& a)

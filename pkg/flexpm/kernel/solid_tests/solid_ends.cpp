@@ -2,6 +2,7 @@
 #include <flexpm/kernel/solid_tests/solid_ends.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/solid_tests/solid_drive.hpp>
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
@@ -115,13 +116,19 @@ void take_mean(SolidState& s, double time, double fastest)
         }
     };
     for (int g = 0; g < grains.count; ++g) {
+        const bool turns = grains.is_rigid(g) && !s.bodies[g].spin_held;
+        if (grains.loose[g]) {
+            damp_loose(grains, steady.mean, g);
+            if (turns) set_space_vector(steady.mean.spin, 3 * g, {});
+            continue;
+        }
         if (!grains.is_rigid(g)) {
             for (int n = 0; n < grains.nodes_of(g); ++n)
                 take(grains.node(g, n));
             continue;
         }
         take(grains.centre(g));
-        if (s.bodies[g].spin_held) continue;
+        if (!turns) continue;
         const double* then = &steady.angle[turn_values * g];
         const Quaternion before { then[0], { then[1], then[2], then[3] } };
         const Vector turn = turn_between(before, s.bodies[g].turn);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
 
+#include <flexpm/kernel/core/mean.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/measure/centre_strain.hpp>
 #include <flexpm/kernel/solid_tests/surface_pieces.hpp>
@@ -22,13 +23,11 @@ constexpr int axial = 2;
 
 int triangles(const SolidState& s) { return static_cast<int>(s.surface.side.size()); }
 
-double mean_of(const SolidState& s, const Array<double>& values, SolidSide side)
+double mean_on(const SolidState& s, const Array<double>& values, SolidSide side)
 {
     const std::vector<int> nodes = side_nodes(s, side);
-    double sum = 0.0;
-    for (int n : nodes)
-        sum += values[s.grains.component(n, axial)];
-    return sum / static_cast<double>(nodes.size());
+    return mean_of(static_cast<int>(nodes.size()),
+        [&](int i) { return values[s.grains.component(nodes[i], axial)]; });
 }
 
 /// Force along z on the specimen at an end.
@@ -40,17 +39,14 @@ double end_force(const SolidState& s, SolidSide side)
 
 double mean_diameter(const SolidState& s)
 {
-    double sum = 0.0;
-    for (double r : s.grains.radius)
-        sum += 2.0 * r;
-    return sum / s.grains.count;
+    return grain_mean(s.grains, [&](int g) { return 2.0 * s.grains.radius[g]; });
 }
 
 /// Axial strain between bands of grain centres.
 double centre_strain(const SolidState& s)
 {
-    const double bottom = mean_of(s, s.grains.reference, SolidSide::bottom);
-    const double height = mean_of(s, s.grains.reference, SolidSide::top) - bottom;
+    const double bottom = mean_on(s, s.grains.reference, SolidSide::bottom);
+    const double height = mean_on(s, s.grains.reference, SolidSide::top) - bottom;
     const double diameter = mean_diameter(s);
     Station stations[2];
     const double at[] = { 0.25 * height, 0.75 * height };
@@ -70,8 +66,8 @@ double centre_strain(const SolidState& s)
 double axial_strain(const SolidState& s)
 {
     if (!s.bodies.empty()) return centre_strain(s);
-    const double way = mean_of(s, s.grains.displacement, SolidSide::top)
-        - mean_of(s, s.grains.displacement, SolidSide::bottom);
+    const double way = mean_on(s, s.grains.displacement, SolidSide::top)
+        - mean_on(s, s.grains.displacement, SolidSide::bottom);
     return way / extent_of(s).height;
 }
 
@@ -185,20 +181,6 @@ double widening(const SolidState& s)
     return ways[1] / std::max(grains[1], 1) - ways[0] / std::max(grains[0], 1);
 }
 
-/// Mean over all grains.
-template <class Value> double grain_mean(const SolidState& s, Value value)
-{
-    double sum = 0.0;
-    for (int g = 0; g < s.grains.count; ++g)
-        sum += value(g);
-    return sum / s.grains.count;
-}
-
-const LawParameters& own_law(const SolidState& s, int grain)
-{
-    return s.contacts.laws[s.grains.law_index(grain, grain)];
-}
-
 double volume_of(const SolidState& s)
 {
     double sum = 0.0;
@@ -210,11 +192,12 @@ double volume_of(const SolidState& s)
 
 double mean_modulus(const SolidState& s)
 {
-    const double of_contacts = contact_modulus(
-        grain_mean(s, [&](int g) { return own_law(s, g).normal_stiffness; }), mean_diameter(s));
+    const double of_contacts =
+        contact_modulus(grain_mean(s.grains, [&](int g) { return own_law(s, g).normal_stiffness; }),
+            mean_diameter(s));
     if (!s.bodies.empty()) return of_contacts;
     return series_modulus(
-        grain_mean(s, [&](int g) { return s.grains.elastic[s.grains.material[g]].young; }),
+        grain_mean(s.grains, [&](int g) { return s.grains.elastic[s.grains.material[g]].young; }),
         of_contacts);
 }
 
@@ -227,8 +210,8 @@ SolidExtent extent_of(const SolidState& s)
         if (s.surface.side[t] == static_cast<int>(SolidSide::bottom))
             extent.area += norm(area_vector(s, t));
     check_positive("area of the bottom", extent.area, "m^2");
-    extent.height = mean_of(s, s.grains.reference, SolidSide::top)
-        - mean_of(s, s.grains.reference, SolidSide::bottom);
+    extent.height = mean_on(s, s.grains.reference, SolidSide::top)
+        - mean_on(s, s.grains.reference, SolidSide::bottom);
     return extent;
 }
 
@@ -289,9 +272,9 @@ ScaleInputs scale_inputs(const SolidState& s, Sense sense, double thickness, dou
     ScaleInputs in;
     in.modulus = mean_modulus(s);
     in.strength = reference_strength(sense,
-        { grain_mean(s, [&](int g) { return own_law(s, g).tensile_strength; }),
-            grain_mean(s, [&](int g) { return own_law(s, g).cohesion; }),
-            grain_mean(s, [&](int g) { return own_law(s, g).friction; }) });
+        { grain_mean(s.grains, [&](int g) { return own_law(s, g).tensile_strength; }),
+            grain_mean(s.grains, [&](int g) { return own_law(s, g).cohesion; }),
+            grain_mean(s.grains, [&](int g) { return own_law(s, g).friction; }) });
     for (double m : s.grains.inverse_mass)
         in.mass += m > 0.0 ? 1.0 / m : 0.0;
     in.thickness = thickness;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/solid_tests/solid_loose.hpp>
 
-#include <flexpm/kernel/core/groups.hpp>
+#include <flexpm/kernel/assembly/loose_groups.hpp>
 #include <flexpm/kernel/solids/solid_access.hpp>
 #include <flexpm/kernel/solids/solid_pressure.hpp>
 
@@ -34,9 +34,7 @@ std::vector<std::uint8_t> held_grains(const SolidState& s)
             if (grains.prescribed[grains.component(grains.node(grain, number), axis)])
                 held[grain] = 1;
     });
-    for (const Plate& plate : s.plates)
-        for (std::size_t i = 0; i < plate.facets.size(); ++i)
-            if (plate.bonded || plate.opening[i] <= 0.0) held[s.surface.grain[plate.facets[i]]] = 1;
+    mark_touching(s.plates, s.surface.grain, held);
     return held;
 }
 
@@ -46,17 +44,11 @@ void find_loose(SolidState& s)
 {
     std::vector<std::uint8_t>& loose = s.grains.loose;
     std::fill(loose.begin(), loose.end(), 0);
-    if (!is_pressed(s)) return;
+    if (!is_pressed(s) && !loads_any(s.plates)) return;
     Groups groups(s.grains.count);
     for (int c = 0; c < s.contacts.count; ++c)
         if (joins(s, c)) groups.join(s.contacts.pairs[c][0], s.contacts.pairs[c][1]);
-    const std::vector<std::uint8_t> held = held_grains(s);
-    std::vector<std::uint8_t> stands(s.grains.count, 0);  // by group
-    for (int g = 0; g < s.grains.count; ++g)
-        if (held[g]) stands[groups.of(g)] = 1;
-    if (std::find(stands.begin(), stands.end(), 1) == stands.end()) return;
-    for (int g = 0; g < s.grains.count; ++g)
-        loose[g] = !stands[groups.of(g)];
+    mark_loose(s.grains, groups, held_grains(s));
 }
 
 }  // namespace flexpm

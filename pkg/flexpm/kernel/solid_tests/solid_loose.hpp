@@ -7,7 +7,8 @@
 namespace flexpm {
 
 /// Find the grains that no chain of contacts, bonded or pressed together, joins to what is held:
-/// nodes whose velocity is given, and grains that touch a plate. Without a pressure none is loose.
+/// nodes whose velocity is given, and grains that touch a plate which moves at a given velocity.
+/// Where nothing is held, to the largest group of grains. Without any pressure none is loose.
 /// Deviation D57.
 void find_loose(SolidState& s);
 

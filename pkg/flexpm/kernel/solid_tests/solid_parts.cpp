@@ -17,7 +17,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -112,10 +111,9 @@ double push_rate(const SolidState& s, const std::vector<int>& plates, Vector dir
     return sum;
 }
 
-/// Mean over the grains.
 double mean_radius(const SolidState& s)
 {
-    return std::accumulate(s.grains.radius.begin(), s.grains.radius.end(), 0.0) / s.grains.count;
+    return grain_mean(s.grains, [&](int g) { return s.grains.radius[g]; });
 }
 
 /// Way of what is driven first, or its angle.

@@ -12,6 +12,12 @@
 
 namespace flexpm {
 
+/// Law of a contact between two grains of the material of `grain`.
+inline const LawParameters& own_law(const SolidState& s, int grain)
+{
+    return s.contacts.laws[s.grains.law_index(grain, grain)];
+}
+
 /// Where a node is drawn if displacements are drawn `factor` times larger [m].
 Vector drawn_place(const Grains& grains, int node, double factor = 1.0);
 

@@ -4,6 +4,7 @@
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/measure/energy_sums.hpp>
 #include <flexpm/kernel/measure/lane_sum.hpp>
+#include <flexpm/kernel/measure/part_sums.hpp>
 #include <flexpm/kernel/solids/face_lanes.hpp>
 #include <flexpm/kernel/solids/solid_bodies.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
@@ -11,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <set>
 
 namespace flexpm {
 
@@ -150,47 +149,18 @@ double softened_in_points(const FaceContacts& c)
     return whole.total() + rest;
 }
 
-/// First of each pair: what has been done up to the present places.
-double sum_of_first(const Array<double>& pairs)
-{
-    double sum = 0.0;
-    for (std::size_t i = 0; i < pairs.size(); i += 2)
-        sum += pairs[i];
-    return sum;
-}
-
-/// Number of grains before a plate: the force on one that a load moves is the sum of theirs.
-double grains_before(const SolidState& s, const Plate& plate)
-{
-    std::set<int> grains;
-    for (int triangle : plate.facets)
-        grains.insert(s.surface.grain[triangle]);
-    return static_cast<double>(grains.size());
-}
-
 }  // namespace
+
+Dissipation dissipation(const SolidState& s)
+{
+    return dissipation_of(s, lost_in_points(s.contacts));
+}
 
 Energies energies(const SolidState& s)
 {
-    Energies e;
-    e.kinetic = std::accumulate(s.ledger.kinetic.begin(), s.ledger.kinetic.end(), 0.0);
-    e.elastic = strain_energy(s) + stored_in_points(s);
-    const ContactLoss lost = lost_in_points(s.contacts);
-    e.damage = lost.damage;
-    e.friction = lost.friction;
+    Energies e =
+        energies_of(s, dissipation(s), strain_energy(s) + stored_in_points(s), solid_plate_energy);
     e.softened = softened_in_points(s.contacts);
-    e.drag = sum_of_first(s.ledger.drag_work);
-    e.damping = sum_of_first(s.ledger.damping_work) - e.drag;
-    e.boundary_work = sum_of_first(s.ledger.prescribed_work) + s.ledger.pressure_work;
-    for (const Plate& plate : s.plates) {
-        e.elastic += solid_plate_energy(plate);
-        e.friction += rubbed_energy(plate);
-        e.boundary_work += plate.boundary_work;
-        e.kinetic += plate.kinetic;
-        e.drag += plate.drag_work;
-        e.damping += plate.damping_work - plate.drag_work;
-    }
-    e.initial = s.ledger.initial;
     return e;
 }
 
@@ -204,28 +174,17 @@ double kinetic_of_velocities(const SolidState& s)
     return sum;
 }
 
-Dissipation dissipation(const SolidState& s)
-{
-    const ContactLoss lost = lost_in_points(s.contacts);
-    Dissipation d;
-    d.damage = lost.damage;
-    d.friction = lost.friction;
-    d.boundary_work = sum_of_first(s.ledger.prescribed_work) + s.ledger.pressure_work;
-    for (const Plate& plate : s.plates)
-        d.boundary_work += plate.boundary_work;
-    return d;
-}
-
 double damping_power(const SolidState& s, double damping)
 {
     const Grains& grains = s.grains;
     const GrainMotion& undamped = s.undamped();
     double total = 0.0;
+    const auto add = [&](double force, double velocity) { total += std::fabs(force * velocity); };
     const auto add_node = [&](int node) {
         for (int axis = 0; axis < grains.layout.dimension; ++axis) {
             const int i = grains.component(node, axis);
             if (grains.prescribed[i]) continue;
-            total += std::fabs(grains.force[i] * (grains.velocity[i] - undamped.velocity[i]));
+            add(grains.force[i], grains.velocity[i] - undamped.velocity[i]);
         }
     };
     for (int g = 0; g < grains.count; ++g) {
@@ -241,17 +200,12 @@ double damping_power(const SolidState& s, double damping)
         total += std::fabs(moment.x * spin.x) + std::fabs(moment.y * spin.y)
             + std::fabs(moment.z * spin.z);
     }
+    for_each_damped_part(s, add);
     return damping * total;
 }
 
 double unbalanced_ratio(const SolidState& s)
 {
-    const auto& forces = s.ledger.largest_force;
-    double largest = *std::max_element(forces.begin(), forces.end());
-    for (const Plate& plate : s.plates)
-        if (plate.unbalanced > 0.0)
-            largest = std::max(largest, plate.unbalanced / grains_before(s, plate));
-    const int count = s.contacts.count;
     double sum = 0.0;
     const auto add = variant_of<sum_forces<false>, sum_forces<true>>();
     for_each_block(s, [&](const FaceLanes& b, const double* states) {
@@ -260,9 +214,7 @@ double unbalanced_ratio(const SolidState& s)
         for (int l = 0; l < lanes; ++l)
             sum += norm(load_vector(forces, l));  // 0 of a padded lane
     });
-    if (sum > 0.0) return largest * count / sum;
-    // a specimen that flies apart is not in balance
-    return count > 0 && largest > 0.0 ? 1.0 : 0.0;
+    return ratio_of_forces(largest_unbalanced(s, s.surface.grain), s.contacts.count, sum);
 }
 
 std::string find_bad_number(const SolidState& s)

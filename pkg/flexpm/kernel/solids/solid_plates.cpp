@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/solids/solid_plates.hpp>
 
+#include <flexpm/kernel/assembly/loose_groups.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/motion/loaded_plate.hpp>
 #include <flexpm/kernel/motion/plate_springs.hpp>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 
 namespace flexpm {
@@ -31,15 +31,6 @@ void add_contact(const SolidState& s, Plate& p, int triangle)
 }
 
 namespace {
-
-/// A stiffness of a grain's own contacts over all grains [Pa/m].
-double mean_stiffness(const SolidState& s, double LawParameters::*stiffness)
-{
-    double sum = 0.0;
-    for (int g = 0; g < s.grains.count; ++g)
-        sum += s.contacts.laws[s.grains.law_index(g, g)].*stiffness;
-    return sum / s.grains.count;
-}
 
 /// A vector where a contact lies on its triangle.
 Vector touched(
@@ -122,13 +113,6 @@ void take_over_pressure(SolidState& s, Plate& p)
         p.gap[i] = p.opening[i] - dot(p.normal, way);
     }
     s.ledger.initial += solid_plate_energy(p);
-}
-
-/// Whether a plate lies before a grain that is not loose.
-bool bears_any(const SolidState& s, const Plate& plate)
-{
-    return std::any_of(plate.facets.begin(), plate.facets.end(),
-        [&](int triangle) { return !s.grains.loose[s.surface.grain[triangle]]; });
 }
 
 Plate& plate_at(SolidState& s, int plate)
@@ -241,8 +225,8 @@ Plate plain_plate(const SolidState& s, SolidSide side)
     Plate p;
     p.side = static_cast<int>(side);
     p.normal = { 0.0, 0.0, side == SolidSide::bottom ? 1.0 : -1.0 };
-    p.stiffness = mean_stiffness(s, &LawParameters::normal_stiffness);
-    p.shear_stiffness = mean_stiffness(s, &LawParameters::shear_stiffness);
+    p.stiffness = grain_mean(s.grains, [&](int g) { return own_law(s, g).normal_stiffness; });
+    p.shear_stiffness = grain_mean(s.grains, [&](int g) { return own_law(s, g).shear_stiffness; });
     return p;
 }
 
@@ -432,7 +416,9 @@ void sum_plates(SolidState& s, double dt, double damping)
             if (plate.machine_stiffness > 0.0)
                 plate.machine_give = dot(plate.normal, plate.force) / plate.machine_stiffness;
             const double undamped = dot(plate.normal, s.loading.of_plate(number).velocity);
-            if (dt > 0.0) integrate_loaded(plate, undamped, bears_any(s, plate), dt, damping);
+            if (dt > 0.0)
+                integrate_loaded(
+                    plate, undamped, bears_any(plate, s.surface.grain, s.grains), dt, damping);
             continue;
         }
         if (dt > 0.0) plate.boundary_work += work_of_step(plate, before, dt);
@@ -450,11 +436,6 @@ double solid_plate_energy(const Plate& plate)
         sum += 0.5 * dot(force, force) / sliding_stiffness(plate, i);
     }
     return sum;
-}
-
-double rubbed_energy(const Plate& plate)
-{
-    return std::accumulate(plate.rubbed.begin(), plate.rubbed.end(), 0.0);
 }
 
 }  // namespace flexpm

@@ -118,9 +118,6 @@ Vector turn_of(const Plate& plate, Vector motion);
 /// Area on which a plate presses [m^2].
 double pressed_area(const Plate& plate);
 
-/// Energy of friction of a plate's contacts [J].
-double rubbed_energy(const Plate& plate);
-
 /// Stored energy of a plate's contacts [J].
 double solid_plate_energy(const Plate& plate);
 

@@ -204,7 +204,7 @@ public:
 		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges; nothing erased counts.")
 		.def("overlaps", AfterAssembly<&GrainSolver::overlaps>::call, (py::arg("smallest") = 1e-3),
 			"Pairs of grains whose polygons overlap by more than a part of the smaller one, by name: grains (n, 2), area that both cover [m^2], part of the smaller grain [-], bonded (once, not on a joint), facing (bonded, and the faces lie as they did), closed: normal force of the pair over its stiffness and the thickness, the area that this accounts for [m^2].")
-		.def("unbalanced", WithGrains<&GrainSolver::unbalanced>::call, "Largest unbalanced over mean contact force [-], at the last measured step.")
+		.def("unbalanced", WithGrains<&GrainSolver::unbalanced>::call, "Ratio of the largest unbalanced force to the mean contact force [-], at the last measured step; forces on plates under a load count per grain before them.")
 		.def("crossingSteps", AfterAssembly<&GrainSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a disc of the grains of a diameter [m] [-].")
 		.def("balance", AfterAssembly<&GrainSolver::balance>::call,
 			"How far the specimen is in balance as a whole, at the last step, as a dictionary. mean_stress: mean of its Cauchy stress, (xx, yy, xy), tension positive [Pa]; "
