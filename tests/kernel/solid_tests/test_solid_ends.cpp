@@ -420,3 +420,30 @@ TEST_CASE("Scales of a solid are those of the plane's formulas", "[solids]")
         == Approx(
             std::sqrt(mass * scales.height * p.solid.high.z / (scales.modulus * p.solid.volume))));
 }
+
+TEST_CASE("Means of equal values of a solid's grains are these values", "[solids]")
+{
+    SolidState s = held(column(3, 3, 11), true, true);
+    std::fill(s.grains.radius.begin(), s.grains.radius.end(), 0.5 * solid_samples::side);
+    const ContactMaterial contact = specimens::granite_contact();
+    double plain = 0.0, plain_diameter = 0.0;
+    for (int g = 0; g < s.grains.count; ++g) {
+        plain += contact.friction;
+        plain_diameter += 2.0 * s.grains.radius[g];
+    }
+    // the plain sums miss them
+    REQUIRE(plain / s.grains.count != contact.friction);
+    REQUIRE(plain_diameter / s.grains.count != solid_samples::side);
+    const TestScales scales = solid_scales(s, Sense::compression, dt);
+    CHECK(scales.strength
+        == reference_strength(
+            Sense::compression, { contact.tensile_strength, contact.cohesion, contact.friction }));
+    CHECK(scales.modulus == contact_modulus(contact.normal_stiffness, solid_samples::side));
+    for (const Plate& plate : s.plates) {
+        CHECK(plate.stiffness == contact.normal_stiffness);
+        CHECK(plate.shear_stiffness == contact.shear_ratio * contact.normal_stiffness);
+    }
+    const SolidExtent extent = extent_of(s);
+    const int node = side_nodes(s, SolidSide::top).front();
+    CHECK(extent.height == s.grains.reference[s.grains.component(node, 2)]);
+}
