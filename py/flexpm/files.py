@@ -189,13 +189,39 @@ def read_bytes(path: Path, largest: int = _LARGEST_TABLE) -> bytes:
 
 
 def read_text(path: Path, largest: int = _LARGEST) -> str:
-    """Text of a file, as ``read_bytes``.
+    """Text of a file, as ``read_bytes`` and ``text_of``.
 
     Raises:
         OSError: if it cannot be read.
         ValueError: if it is larger, no UTF-8, or its name can be none.
     """
-    return read_bytes(path, largest).decode()
+    return text_of(read_bytes(path, largest))
+
+
+def text_of(content: bytes) -> str:
+    """Text of a file that any program on any system has written.
+
+    A byte-order mark is removed, and each line ends with a new line alone.
+
+    Raises:
+        ValueError: if it is no UTF-8.
+    """
+    return content.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+
+
+def csv_rows(text: str) -> Iterator[tuple[int, list[str]]]:
+    """Yield the line number and the cells of each row of a table, without blanks around cells.
+
+    Rows without any content, with which spreadsheets end their tables, are left out.
+
+    Raises:
+        csv.Error: if it is no table.
+    """
+    reader = csv.reader(io.StringIO(text, newline=""), skipinitialspace=True)
+    for row in reader:
+        cells = [cell.strip() for cell in row]
+        if any(cells):
+            yield reader.line_num, cells
 
 
 def read_json(path: Path) -> Any:
@@ -246,7 +272,7 @@ def load_csv(path: Path, what: str) -> tuple[list[str], list[list[str]]]:
         InputError: if it cannot be read or a row has another length than the header.
     """
     try:
-        lines = list(csv.reader(io.StringIO(read_text(path, _LARGEST_TABLE), newline="")))
+        lines = [cells for _, cells in csv_rows(read_text(path, _LARGEST_TABLE))]
     except OSError as error:
         raise InputError(
             f"{what} = {str(path)!r}, cannot be read ({error.strerror}); give a file of flexpm"

@@ -219,7 +219,7 @@ class Cells:
         except flexpm.InputError as raised:
             return f"InputError: {raised}"
         areas = specimen.tessellation.cell_areas
-        whole = [self._area(ring) for ring in (specimen.outline, *specimen.holes)]
+        whole = [self.area_of(ring) for ring in (specimen.outline, *specimen.holes)]
         if not (np.all(areas > 0.0) and abs(areas.sum() / sum(whole) - 1.0) < 1e-9):
             return f"areas = {areas.tolist()}, outline and holes = {whole}"
         with tempfile.TemporaryDirectory() as folder:
@@ -235,9 +235,113 @@ class Cells:
         return "done"
 
     @staticmethod
-    def _area(ring: Any) -> float:
+    def area_of(ring: Any) -> float:
         following = ring[[*range(1, len(ring)), 0]]
         return float(0.5 * (ring[:, 0] @ following[:, 1] - ring[:, 1] @ following[:, 0]))
+
+
+class Labels:
+    """Specimens of any images of labels, saved, loaded, built and stepped."""
+
+    def __call__(self, example: dict[str, Any]) -> str:
+        """The error of an example, or what became of it."""
+        import numpy as np
+
+        import flexpm  # first: it knows where YADE is
+        import yade  # isort: skip
+
+        yade.O.reset()
+        minerals = example["minerals"]
+        labels = np.array(example["labels"])
+        try:
+            specimen = flexpm.Specimen.from_labels(
+                labels,
+                example["pixel"],
+                0.01,
+                minerals=None if minerals is None else dict(enumerate(minerals)),
+                edge=example["edge"],
+                smallest=example["smallest"],
+            )
+        except flexpm.InputError as raised:
+            return f"InputError: {raised}"
+        areas = specimen.tessellation.cell_areas
+        whole = [Cells.area_of(ring) for ring in (specimen.outline, *specimen.holes)]
+        if not (np.all(areas > 0.0) and abs(areas.sum() / sum(whole) - 1.0) < 1e-9):
+            return f"areas = {areas.tolist()}, outline and holes = {whole}"
+        rock = labels.size * example["pixel"] ** 2
+        if minerals is None and abs(areas.sum() / rock - 1.0) > 1e-7:
+            return f"area = {areas.sum()}, pixels = {rock}"
+        with tempfile.TemporaryDirectory() as folder:
+            specimen.save(f"{folder}/it.json")
+            again = flexpm.Specimen.load(f"{folder}/it.json")
+        for name in ("grains", "minerals"):
+            if not np.array_equal(getattr(again, name), getattr(specimen, name)):
+                return f"other {name} in its file"
+        if specimen.minerals is not None and len(areas) > 1:
+            rocks = _of_two_minerals(flexpm.materials.load(None, example["model"]))
+            if specimen.minerals.max() > 1:
+                return "done"
+        else:
+            rocks = None
+        if len(areas) > 1:
+            built = flexpm.build(specimen, rocks, example["model"])
+            built.run(20)
+            if not np.all(np.isfinite(built.snapshot().positions)):
+                return "places that are none"
+        return "done"
+
+
+class Bodies:
+    """Solids of given cells: bricks of any sizes or a prism in layers, turned files of Neper."""
+
+    def __call__(self, example: dict[str, Any]) -> str:
+        """The error of an example, or what became of it."""
+        import numpy as np
+        from neper_solids import bricks, prism, tess_text
+
+        import flexpm  # first: it knows where YADE is
+        import yade  # isort: skip
+
+        yade.O.reset()
+        if example["facets"]:
+            vertices, faces, cells = prism(example["facets"], len(example["planes"][2]) + 1)
+            places = np.array(vertices)
+            places[:, 2] = self._at(example["planes"][2])[places[:, 2].astype(int)]
+        else:
+            shape = [len(planes) + 1 for planes in example["planes"]]
+            vertices, faces, cells = bricks(shape)
+            places = np.rint(np.array(vertices) * shape).astype(int)
+            columns = zip(example["planes"], places.T, strict=True)
+            places = np.column_stack([self._at(planes)[place] for planes, place in columns])
+        places[example["moved"] % len(places)] += example["by"]
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "a.tess")
+            path.write_text(tess_text(places.tolist(), faces, cells))
+            try:
+                specimen = flexpm.Specimen.from_tess_solid(
+                    path, scale=example["scale"], short_edge=example["short_edge"]
+                )
+            except flexpm.InputError as raised:
+                return f"InputError: {raised}"
+            volume = float(np.sum(specimen.cells.volumes))
+            if not abs(volume / specimen.outline().volume - 1.0) < 1e-9:
+                return f"volume = {volume}"
+            specimen.save(f"{folder}/it.json")
+            again = flexpm.Specimen.load_solid(f"{folder}/it.json")
+        if not np.array_equal(again.cells.volumes, specimen.cells.volumes):
+            return "another specimen in its file"
+        if specimen.cells.cells > 1:
+            built = flexpm.build(specimen, None, example["model"])
+            built.run(20)
+            if not np.all(np.isfinite(built.snapshot().positions)):
+                return "places that are none"
+        return "done"
+
+    @staticmethod
+    def _at(planes: list[float]) -> Any:
+        import numpy as np
+
+        return np.array([0.0, *sorted(planes), 1.0])
 
 
 class Networks:
@@ -351,7 +455,21 @@ class Physics:
 
 
 class Command:
-    """Command lines, in this process one after the other."""
+    """Command lines, in this process one after the other, in a folder with a file of each kind."""
+
+    def __init__(self) -> None:
+        from good_files import FILES
+
+        import flexpm
+
+        self._files = dict(FILES)
+        with tempfile.TemporaryDirectory() as folder:
+            for name, one in (
+                ("grains.json", flexpm.Specimen.rectangle(0.012, 0.016, 0.01)),
+                ("solid.json", flexpm.Specimen.box(0.009, 0.009, 0.012)),
+            ):
+                one.save(f"{folder}/{name}")
+                self._files[name] = Path(folder, name).read_bytes()
 
     def __call__(self, arguments: list[str]) -> list[Any]:
         """Exit code and what went to stderr."""
@@ -362,9 +480,11 @@ class Command:
 
         errors = io.StringIO()
         with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            for name, content in self._files.items():
+                Path(name).write_bytes(content)
             with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(errors):
                 code = main(arguments)
-            outside = sorted(os.listdir(".")) if code == 2 else []
+            outside = sorted({*os.listdir(".")} - {*self._files}) if code == 2 else []
         return [code, errors.getvalue(), outside]
 
 
@@ -374,6 +494,8 @@ def serve(kind: str, out: Any) -> None:
         "script": Script,
         "discs": Discs,
         "cells": Cells,
+        "labels": Labels,
+        "bodies": Bodies,
         "spheres": Spheres,
         "networks": Networks,
         "command": Command,

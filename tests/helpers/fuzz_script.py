@@ -16,6 +16,11 @@ QUERIES = (
 )
 #: Attributes that a script may set to nonsense.
 NUMBERS = ("damping", "measurePeriod", "checkPeriod", "mirrorPeriod")
+#: What parts tell.
+PART_READINGS = (
+    *("force", "work", "place", "displacement", "width", "area", "normal", "contact_angle"),
+    *("angle", "machine_energy", "moment", "nodes", "axes"),
+)
 
 #: Depth of solids [m].
 SOLID_DEPTH = 0.008
@@ -37,6 +42,7 @@ class Script:
         self._yade.O.reset()
         self._built: Any = None
         self._rig: Any = None
+        self._ends: Any = None
         self._solver: Any = None
         self._views: list[Any] = []
         self._held: list[Any] = []
@@ -74,7 +80,7 @@ class Script:
         return hashlib.sha256(places.tobytes()).hexdigest()[:16]
 
     def do_build(self, model: str, seed: int, points: int, mesh: str) -> None:
-        self._rig = None
+        self._rig = self._ends = None
         self._built = self._flexpm.build(
             self._specimen(seed), None, model, points=points, mesh=mesh
         )
@@ -86,18 +92,18 @@ class Script:
         cut = self._specimen(seed).with_joints({"cut": line})
         rock = self._flexpm.materials.load(None, model)
         rock = rock.with_set({f"joint.cut.{key}": value for key, value in law.items()}, model)
-        self._rig = None
+        self._rig = self._ends = None
         self._built = self._flexpm.build(cut, rock, model)
         self._solver = self._built.solver
 
     def do_build_cave(self, model: str, seed: int, line: Any) -> None:
-        self._rig = None
+        self._rig = self._ends = None
         specimen = self._specimen(seed).with_excavations({"cave": line})
         self._built = self._flexpm.build(specimen, None, model)
         self._solver = self._built.solver
 
     def do_build_solid(self, model: str, seed: int) -> None:
-        self._rig = None
+        self._rig = self._ends = None
         if -seed not in self._specimens:
             made = self._flexpm.Specimen.box(0.012, SOLID_DEPTH, 0.016, seed=seed)
             self._specimens[-seed] = made
@@ -125,7 +131,7 @@ class Script:
         if self._rig is None and self._built is not None:
             solid = self._is_solid()
             kind = self._flexpm.SolidPartRig if solid else self._flexpm.PartRig
-            self._rig = kind(self._built)
+            self._rig, self._ends = kind(self._built), None
             self._strange += self._held
             self._held = []
         return self._rig
@@ -163,6 +169,26 @@ class Script:
     def do_ends(self, pressure: Any, way: Any, load: Any) -> None:
         if self._built is not None:
             self._flexpm.rig(self._built).elastic(pressure, way=way, load=load)
+
+    def do_end(self, name: str, arguments: list[Any], named: dict[str, Any]) -> None:
+        """A call of the rig between ends."""
+        if self._built is not None:
+            if self._ends is None:
+                self._ends, self._rig = self._flexpm.rig(self._built), None
+            getattr(self._ends, name)(*arguments, **named)
+
+    def do_fail(self, between_ends: bool, options: dict[str, Any]) -> None:
+        """Load up to a small strain."""
+        loading = self._flexpm.Loading(**options)
+        if between_ends:
+            self.do_end("load", [loading], {})
+        elif rig := self._parts():
+            rig.load(loading)
+
+    def do_leave(self, name: str) -> None:
+        if rig := self._parts():
+            rig.save(f"{self._folder.name}/{name}")
+            rig.to_yade_plot()
 
     def do_jaw(self, x: float, y: float, radius: float, angle: Any, name: Any) -> None:
         if rig := self._parts():
@@ -211,7 +237,13 @@ class Script:
             held.move(self._along([across, along]))
 
     def do_again(self) -> None:
-        self._rig = None  # the next call takes the scene up
+        self._rig = self._ends = None  # the next call takes the scene up
+
+    def do_part(self, part: list[Any]) -> None:
+        """All that a part tells."""
+        if hasattr(held := self._picked(part), "force"):
+            for name in PART_READINGS:
+                getattr(held, name, None)
 
     def do_names(self, name: Any, column: Any, part: list[Any]) -> None:
         if rig := self._parts():
@@ -278,7 +310,7 @@ class Script:
     def do_load(self) -> None:
         if Path(self._folder.name, "scene.bin").exists():
             self._yade.O.load(f"{self._folder.name}/scene.bin", quiet=True)
-            self._rig = None
+            self._rig = self._ends = None
             if self._built is not None:
                 self._built.rebind()
             kind = self._yade.wrapper.GrainSolver

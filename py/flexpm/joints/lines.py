@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import csv
 import hashlib
-import io
 import itertools
 import json
 import math
@@ -14,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from ..files import read_text
+from ..files import csv_rows, read_text
 from ..require import quoted
 
 #: Columns of a file of joints.
@@ -40,7 +39,7 @@ def read(path: Path) -> Lines:
     found: Lines = {}
     first_rows: dict[str, list[int]] = {}
     for number, row in _rows(name, path):
-        label = (row[4] if len(row) > 4 else "").strip()
+        label = row[4]
         where = f"{name}, line {number}, joint {quoted(label)}"
         if len(row) > len(COLUMNS):
             raise InputError(
@@ -68,9 +67,8 @@ def read(path: Path) -> Lines:
 def _rows(name: str, path: Path) -> Iterator[tuple[int, list[str]]]:
     """Line numbers and cells of rows, these in the order of ``COLUMNS``, then what is too much."""
     try:
-        text = read_text(path)
-        rows = csv.reader(io.StringIO(text, newline=""), skipinitialspace=True)
-        columns = next(rows, [])
+        rows = csv_rows(read_text(path))
+        columns = _filled(next(rows, (0, []))[1])
         if sorted(columns) != sorted(COLUMNS):
             raise InputError(
                 f"{name}: columns = {quoted(','.join(columns))}, must have rows and the columns "
@@ -78,11 +76,11 @@ def _rows(name: str, path: Path) -> Iterator[tuple[int, list[str]]]:
             )
         places = [columns.index(column) for column in COLUMNS]
         begun = False
-        for row in rows:
-            if row:
-                begun = True
-                cells = [row[place] if place < len(row) else "" for place in places]
-                yield rows.line_num, cells + row[len(COLUMNS) :]
+        for number, row in rows:
+            begun = True
+            row = _filled(row)
+            cells = [row[place] if place < len(row) else "" for place in places]
+            yield number, cells + row[len(COLUMNS) :]
         if not begun:
             raise InputError(
                 f"{name}, must have rows and the columns {','.join(COLUMNS)}; correct it"
@@ -95,17 +93,27 @@ def _rows(name: str, path: Path) -> Iterator[tuple[int, list[str]]]:
         raise InputError(f"{name}, is no CSV file: {error}") from None
 
 
-def checked(joints: object) -> Lines:
+def _filled(row: list[str]) -> list[str]:
+    """Cells of a row up to the last one with content: spreadsheets fill rows with empty cells."""
+    return row[: max((at for at, cell in enumerate(row, 1) if cell), default=0)]
+
+
+def checked(joints: object, *, excavations: bool = False) -> Lines:
     """Lines of joints by name; a joint may be one line, rows x, y, or a list of lines.
 
+    Args:
+        joints: The lines.
+        excavations: Whether there may be lines of excavations among them.
+
     Raises:
-        InputError: for what is no line.
+        InputError: for what is no line, and for a name that no joint may have.
     """
     if not isinstance(joints, Mapping) or not joints:
         raise InputError(f"joints = {quoted(joints)}, must be lines by the name of their joint")
     found: Lines = {}
     for name, given in joints.items():
-        check_name(name, "joint")
+        is_excavation = excavations and isinstance(name, str) and name.startswith(EXCAVATION)
+        check_name(name[len(EXCAVATION) :] if is_excavation else name, "joint")
         lines = _plain(given)
         if _is_line(lines):
             lines = [lines]
@@ -119,11 +127,16 @@ def checked(joints: object) -> Lines:
 
 
 def check_name(name: object, where: str) -> None:
-    """Refuse what is no printable word."""
+    """Refuse what is no printable word, and a name that is reserved for excavations."""
     if not isinstance(name, str) or not name.isprintable() or not name or set(name) & _NOT_IN_NAMES:
         raise InputError(
             f"{where} = {quoted(name)}, must be a name without spaces, dots, commas, quotes, "
             "equals signs and what cannot be printed"
+        )
+    if name.startswith(EXCAVATION):
+        raise InputError(
+            f"{where} = {quoted(name)}, must not begin with {EXCAVATION}, the mark of lines along "
+            "which a test excavates; give it another name, or use Specimen.with_excavations"
         )
 
 

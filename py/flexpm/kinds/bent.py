@@ -5,8 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from ..errors import InputError
+from ..require import Bounds
 from .layout import Frame, Layout, Lines, Opening, Plate
-from .option import control_of
+from .option import Asked, control_of
 from .part_measures import work
 from .words import CRACKS, Columns, Words, strain, stress
 
@@ -24,6 +26,14 @@ WORDS = Words(
 )
 
 
+def span_of(asked: Asked, usual: float, size: float) -> float:
+    """Distance of the supports, above one mean grain and below a size of the specimen [m]."""
+    why = ""
+    if asked.grain > 0.0:
+        why = f"both supports are more than one mean grain of {asked.grain:g} m apart"
+    return asked.number("span", usual, Bounds(above=asked.grain, below=size), why=why)
+
+
 def notch(frame: Frame) -> Lines:
     """A line up from the middle of the bottom, unless the notch has no depth."""
     depth = frame.number("notch")
@@ -35,6 +45,11 @@ def notch(frame: Frame) -> Lines:
 def on_rollers(frame: Frame) -> Layout:
     """Two rollers below, a head pressed on the middle."""
     span, middle = frame.number("span"), frame.middle
+    if not span > frame.grain:  # of grains that were given
+        raise InputError(
+            f"run: span = {span:g} m, must be > {frame.grain:g} m, one mean grain: both supports "
+            "would lie on the same grains; take a larger span or smaller grains"
+        )
     ligament = frame.height - frame.notch_depth
     rollers = {
         name: Plate((middle + side * 0.5 * span, frame.bottom), (0.0, 1.0))

@@ -44,16 +44,33 @@ class Asked:
     values: Mapping[str, Value]  #: of the options, by name
     diameter: float | None  #: mean of the grains [m]; None for grains that were given
 
-    def number(self, name: str, usual: float, bounds: Bounds = ANY, unit: str = "m") -> float:
+    def number(
+        self, name: str, usual: float, bounds: Bounds = ANY, unit: str = "m", why: str = ""
+    ) -> float:
         """A number, or what is usual, within its bounds.
+
+        Args:
+            name: Name of the option.
+            usual: Its value if it is not given.
+            bounds: Its range.
+            unit: Its unit.
+            why: Reason of the bounds and remedy, for the message.
 
         Raises:
             InputError: for one out of range.
         """
         value = self.values.get(name)
-        if value is None:
-            return require_number(f"run: default {name}", usual, bounds, unit, f"{usual:g}")
-        return require_number(f"run: {name}", value, bounds, unit)
+        try:
+            if value is None:
+                return require_number(f"run: default {name}", usual, bounds, unit, f"{usual:g}")
+            return require_number(f"run: {name}", value, bounds, unit)
+        except InputError as error:
+            raise InputError(f"{error}: {why}" if why else str(error)) from None
+
+    @property
+    def grain(self) -> float:
+        """Mean diameter of packed grains [m]; 0 of grains that were given."""
+        return self.diameter or 0.0
 
     def word(self, name: str, choices: tuple[str, ...]) -> str:
         """One of a few words, the first if none is given.

@@ -24,6 +24,8 @@ from .keys import COMMON_KEYS, ELASTIC_KEYS
 _SUM_TOLERANCE = 1e-6
 #: Minerals of a rock; each pair of them has a law of contact.
 MOST = 100
+#: How keys of ``--set`` begin that are of no mineral.
+_RESERVED = ("joint.", "interface.")
 _KEYS = tuple(key for key in COMMON_KEYS if key != "plane")
 
 
@@ -77,6 +79,11 @@ def checked(minerals: object) -> tuple[Mineral, ...]:
     for name in names:
         if names.count(name) > 1:
             raise InputError(f"mineral = {name!r}, is there twice; give each a name of its own")
+        if name.startswith(_RESERVED):
+            raise InputError(
+                f"mineral = {quoted(name)}, must not begin with {' or '.join(_RESERVED)}, as keys of "
+                "joints and interfaces do; give it another name"
+            )
     total = math.fsum(mineral.fraction for mineral in made)
     if made and abs(total - 1.0) > _SUM_TOLERANCE:
         raise InputError(f"mineral fractions = {total:.6g} in all, must sum up to 1")

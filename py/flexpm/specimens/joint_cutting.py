@@ -17,7 +17,7 @@ from ..errors import InputError
 from ..joints.cuts import Cut, require_any, require_within
 from ..joints.excavation import Excavation as Excavation
 from ..joints.excavation import excavation_of, line_from_edge, ring_of
-from ..joints.lines import EXCAVATION, Lines
+from ..joints.lines import EXCAVATION, Lines, Point, checked
 from ..progress import Progress
 from ..require import quoted, require_known, require_text
 from .kernel_input import call, columns
@@ -108,8 +108,13 @@ class Excavatable(ABC):
         """Mean diameter of the discs [m]."""
 
     @abstractmethod
-    def with_joints(self, joints: Mapping[str, object]) -> Self:
-        """Return the specimen cut by joints."""
+    def _cut_by(
+        self,
+        lines: Lines,
+        progress: Progress | None = None,
+        origin: Point | None = None,
+    ) -> Self:
+        """Return the specimen cut by lines that are checked."""
 
     def with_excavations(self, excavations: Mapping[str, object]) -> Self:
         """Return the specimen cut along closed lines, within which a test excavates later (D77).
@@ -141,7 +146,8 @@ class Excavatable(ABC):
             polygon_outline(f"excavation {name}", ring)
             cells = cut.tessellation
             edges = cells.vertices[cells.shared_edges[:, 2:]]
-            cut = cut.with_joints({label: line_from_edge(name, ring, edges)})
+            line = line_from_edge(name, ring, edges)
+            cut = cut._cut_by(checked({label: line}, excavations=True))
             found = cut.joint_cuts[label]
             if found.outside > _NOTHING * found.length:
                 raise InputError(

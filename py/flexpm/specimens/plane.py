@@ -173,14 +173,13 @@ def from_labels(labels: npt.ArrayLike, thickness: float, options: Table) -> Fill
             if fill == FILLS[-1]:
                 raise
     grains = found.grains[tiling.origin].astype(np.int32)
-    grains.setflags(write=False)
     made = _of_cells(tiling, rings, thickness, grains)
     regions: Table = found.counts | {"source": found.source}
     if found.minerals is None:
-        return replace(made, grains=grains, regions=regions)
+        return replace(made, regions=regions)
     minerals = mineral_indices(found.minerals[grains], len(grains))
     spec = replace(made.spec, minerals=checksum(minerals))
-    return replace(made, grains=grains, minerals=minerals, spec=spec, regions=regions)
+    return replace(made, minerals=minerals, spec=spec, regions=regions)
 
 
 def from_ebsd(path: Path, thickness: float, options: Table) -> Filling:
@@ -222,14 +221,26 @@ def from_tess(path: Path, thickness: float, scale: float, short_edge: float) -> 
 def _of_cells(
     tiling: Tiling, rings: list[FloatArray], thickness: float, grains: IntArray | None = None
 ) -> Filling:
-    """Fill an outline with cells that the kernel has taken."""
+    """Fill an outline with cells that the kernel has taken, of given grains or a grain each."""
+    if grains is None:
+        grains = _pieces(tiling)
     checksums = {
         "discs": checksum(tiling.discs),
         "outline": checksum(np.vstack(rings)),
         "cells": cells_checksum(tiling.tessellation, grains),
     }
     spec = _given_spec(rings[0], thickness, 0.0, checksums)
-    return _of_tiling(tiling, rings[0], rings[1:], spec)
+    return _of_tiling(tiling, rings[0], rings[1:], spec, grains)
+
+
+def _pieces(tiling: Tiling) -> IntArray | None:
+    """Grain of each cell, whole grains first; None if no grain was split."""
+    _, first, grains = np.unique(tiling.origin, return_index=True, return_inverse=True)
+    if len(first) == len(grains):
+        return None
+    rank = np.argsort(np.argsort(first))
+    found: IntArray = rank[grains].astype(np.int32)
+    return found
 
 
 def from_discs(
@@ -274,13 +285,18 @@ def _sawn(
     block = packed.packed_discs(where, spec, frame, width * height, progress)
     length = spec.short_edge * 2.0 * float(np.mean(block[:, 2]))
     centres, radii = columns(block + np.append(outer.min(axis=0), 0.0))
-    return _of_tiling(call(cells_in_outline, centres, radii, outline, length), outer, inner, spec)
+    tiling = call(cells_in_outline, centres, radii, outline, length)
+    return _of_tiling(tiling, outer, inner, spec, _pieces(tiling))
 
 
 def _of_tiling(
-    tiling: Tiling, outline: FloatArray, holes: Sequence[FloatArray], spec: SpecimenSpec
+    tiling: Tiling,
+    outline: FloatArray,
+    holes: Sequence[FloatArray],
+    spec: SpecimenSpec,
+    grains: IntArray | None,
 ) -> Filling:
     discs = tiling.discs
-    for array in (discs, outline, *holes):
+    for array in (discs, outline, *holes, *(() if grains is None else (grains,))):
         array.setflags(write=False)
-    return Filling(discs, outline, tiling.tessellation, spec, holes=tuple(holes))
+    return Filling(discs, outline, tiling.tessellation, spec, holes=tuple(holes), grains=grains)

@@ -138,7 +138,12 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
             InputError: if no line cuts anything, for a point that is not finite or further away
                 than 1e6 sizes of the specimen, and for more than 20 000 segments within it.
         """
-        lines = checked_lines(joints)
+        return self._cut_by(checked_lines(joints), progress, origin)
+
+    def _cut_by(
+        self, lines: Lines, progress: Progress | None = None, origin: Point | None = None
+    ) -> Specimen:
+        """Return the specimen cut by lines that are checked."""
         if self.strengths is not None:
             raise InputError(
                 f"Specimen.with_joints: strengths = {len(self.strengths)}, belong to other "

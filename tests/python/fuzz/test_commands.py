@@ -16,11 +16,13 @@ WORDS = st.sampled_from(
     """uniaxial tension biaxial triaxial brazilian flexible rigid inner jcfpm static adaptive
     constant waiting box cylinder solid-disc solid-half-disc p s
     axial lateral displacement cmod gif augig-table7 augig-table2-brittle
-    nofile.toml""".split()
+    nofile.toml material.toml phases.toml network.toml joints.csv a.geojson grains.json solid.json
+    grey.png""".split()
 )
 TEXTS = st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters="\0"), max_size=6)
 KEYS = st.sampled_from(
     """young cohesion friction softening normal_stiffness quartz.x joint.j.friction interface.a.b
+    joint.fault.open joint.bed-1.open quartz.cohesion
     interface.quartz/biotite.cohesion interface.a/b.factor.friction""".split()
 )
 VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --porosity
@@ -43,6 +45,15 @@ OPTIONS = st.one_of(
     st.tuples(st.sampled_from(FLAGS)),
     st.tuples(TEXTS),
 )
+#: Images and maps that are there.
+IMAGES = ("colours.png", "grey.png", "palette.png", "lzw.tif", "labels.npy", "a.tesr", "b.tesr")
+#: Files of a run in 2D.
+READ_2D = (
+    ("--specimen", "grains.json"),
+    ("--joints", "joints.csv", "--material", "material.toml", "--set", "joint.bed-1.open=true"),
+    ("--joints", "a.geojson", "--set", "joint.a.open=true"),
+    ("--network", "network.toml", "--set", "joint.bedding.open=true"),
+)
 COMMANDS = st.sampled_from(
     [
         *(("run", test) for test in ("uniaxial", "tension", "biaxial", "brazilian")),
@@ -62,6 +73,11 @@ COMMANDS = st.sampled_from(
         *(("specimen", shape) for shape in ("solid-disc", "solid-half-disc")),
         *(("specimen", "image", file, "--pixel", "1e-4") for file in ("nofile.toml", "no.npy")),
         *(("specimen", kind, f"no.{end}") for kind, end in (("ebsd", "ctf"), ("tess", "tess"))),
+        *(("specimen", "image", f"{name}", "--pixel", "1e-4") for name in IMAGES),
+        *(("specimen", "ebsd", name) for name in ("a.ctf", "h.ctf", "a.ang", "h.ang")),
+        *(("specimen", "tess", name) for name in ("a.tess", "b.tess", "c.tess", "s.tess")),
+        *(("run", test, *file) for test in ("uniaxial", "bending") for file in READ_2D),
+        *(("run", test, "--specimen", "solid.json") for test in ("uniaxial", "triaxial", "shear")),
         *((name, "nofile.toml") for name in ("study", "calibrate", "rerun", "report")),
         *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),
         ("bench", "--shape", "box"),
@@ -143,7 +159,12 @@ def test_every_option_is_drawn():
 @given(COMMANDS, st.lists(OPTIONS, max_size=4))
 @drawing(100)
 def test_any_command_line_ends_as_documented(child, command, options):
-    sizes = SIZES.get(" ".join(command)) or SIZES.get(command[0] if command else "", [])
+    if "--specimen" in command:
+        sizes = NEXT if command[1] == "shear" else FEW
+    elif command[:2] == ("run", "bending"):
+        sizes = SIZES["run bending"]
+    else:
+        sizes = SIZES.get(" ".join(command)) or SIZES.get(command[0] if command else "", [])
     words = [*command, *sizes]
     code, errors, left = child.run([*words, *(word for option in options for word in option)])
     assert code in (0, 2, 3), errors

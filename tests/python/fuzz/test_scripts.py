@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
+import fuzz_script
 import pytest
 from fuzz_child import Child, drawing
 from fuzz_script import NUMBERS, QUERIES
 from hypothesis import example, given
 from hypothesis import strategies as st
+
+import flexpm
 
 #: Exceptions of Python for an argument of another type, which have several lines.
 FOREIGN = re.compile(r"(ArgumentError|TypeError|OverflowError): ")
@@ -96,7 +100,48 @@ STAGES = st.one_of(
         ),
     ),
 )
+#: Strains and stresses that are soon there, and such as are none.
+NEAR = st.sampled_from([1e-8, -1e-8, 0.0, float("nan"), None, "a"])
+FAR = st.sampled_from([1e3, -1e3, 0.0, float("nan"), None, "a"])
+RATE = st.sampled_from([100.0, 0.0, -1.0, float("nan"), "a"])
+GOING = st.tuples(st.just("strain_to"), st.tuples(NEAR, st.just(100.0) | RATE)) | st.tuples(
+    st.just("stress_to"), st.tuples(FAR, st.just(100.0) | RATE)
+)
+#: A loading up to a small strain.
+LOADING = st.fixed_dictionaries(
+    {
+        "rate": st.just(100.0),
+        "max_strain": st.sampled_from([1e-8, 1e-8, 0.0, float("nan")]),
+        "kind": st.sampled_from(["constant", "adaptive", "waiting", "fast"]),
+        "static": st.sampled_from([False, False, True, 1]),
+        "control": st.sampled_from(["", "", "load", "lateral_strain", "opening", 5]),
+    }
+)
+#: Calls of the rig between two ends.
+ENDS = st.one_of(
+    st.builds(lambda going: ("end", *going, {}), GOING),
+    st.tuples(
+        st.just("end"),
+        st.just("confine"),
+        st.tuples(st.sampled_from([1e5, 0.0, -1.0, float("nan"), None, "a"])),
+        st.sampled_from([{}, {}, {"second": 2e5}, {"second": None}, {"second": -1.0}]),
+    ),
+    st.tuples(st.just("end"), st.just("roughen"), st.tuples(st.just(0.3) | ANY), st.just({})),
+    st.tuples(
+        st.just("end"),
+        st.just("elastic"),
+        st.tuples(st.none() | VALUE),
+        st.fixed_dictionaries({"way": st.sampled_from([0.0, 1e-7]) | ANY, "load": VALUE}),
+    ),
+    st.tuples(st.just("end"), st.just("finish"), st.just(()), st.just({})),
+    st.tuples(st.just("fail"), st.just(True), LOADING),
+)
 PARTS = st.one_of(
+    ENDS,
+    st.builds(lambda going: ("stage", *going, {}), GOING),
+    st.tuples(st.just("fail"), st.just(False), LOADING),
+    st.tuples(st.just("leave"), st.sampled_from(["left", "", "a\nb", "scene.bin"])),
+    st.tuples(st.just("part"), st.lists(PICK, min_size=1, max_size=1)),
     st.tuples(st.just("support"), PLACE, PLACE, st.sampled_from([0.001, 0.0, 1.0]), st.booleans()),
     st.tuples(st.just("roller"), PLACE, PLACE, st.booleans()),
     st.tuples(st.just("platen"), st.sampled_from([0, 1, 2, 3, 4, 9, -1]), st.booleans()),
@@ -245,6 +290,26 @@ class Model:
             self.now, state = self.saved
             return state
         return None
+
+
+#: Public calls of rigs that are not drawn: what a run of the command makes of its own.
+NOT_CALLED = {"keep_start", "read_mouth", "has_scale", "confine", "bend", "balance", "unbalanced"}
+
+
+def test_every_call_of_a_rig_is_drawn():
+    """What is new in parts and stages comes here, of 2D and of solids."""
+    from flexpm.rigs.grain_rig import NodeRig, PlateRig
+    from flexpm.rigs.parts import HeldNodes, Part
+    from flexpm.rigs.solids.end_rig import EndRig
+
+    source = Path(fuzz_script.__file__).read_text() + Path(__file__).read_text()
+    drawn = {*re.findall(r"rig\.(\w+)\(", source), *re.findall(r'"(\w+)"', source)} | NOT_CALLED
+    for kind in (flexpm.PartRig, flexpm.SolidPartRig, NodeRig, PlateRig, EndRig):
+        calls = [name for name in dir(kind) if name[0] != "_" and callable(getattr(kind, name))]
+        assert [name for name in calls if name not in drawn] == []
+    for kind in (Part, HeldNodes):
+        told = {name for name in dir(kind) if name[0] != "_"}
+        assert told - {"move", *fuzz_script.PART_READINGS} <= {"rig", "number", "solver", "kind"}
 
 
 @given(BUILD | CUT | CAVE, st.lists(PLAIN | PARTS, max_size=8))

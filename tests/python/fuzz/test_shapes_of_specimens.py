@@ -200,3 +200,67 @@ def test_any_cells_with_grains_within_them_step_or_are_refused(cells, tiling):
     said = cells.run(tiling)
     assert said.startswith(("done", "InputError: ")), said
     assert "\n" not in said
+
+
+@st.composite
+def images(draw):
+    """A few labels on a few pixels, some of them holes, and now and then what is wrong."""
+    rows, columns = draw(st.integers(2, 9)), draw(st.integers(2, 9))
+    kinds = draw(st.integers(1, 6))
+    row = st.lists(st.integers(0, kinds - 1), min_size=columns, max_size=columns)
+    odd = draw(st.integers(0, 9)) == 0
+    mineral = st.sampled_from([0, 0, 1, 1, None])
+    return {
+        "labels": draw(st.lists(row, min_size=rows, max_size=rows)),
+        "pixel": draw(ODD if odd else st.sampled_from([1e-4, 1e-3])),
+        "minerals": draw(st.none() | st.lists(mineral, min_size=kinds, max_size=kinds)),
+        "edge": draw(st.sampled_from([None, None, None, 2e-3, 1e-2, 0.0, math.nan])),
+        "smallest": draw(st.sampled_from([1, 1, 2, 4, 9, 0])),
+        "model": draw(st.sampled_from(["flexible", "rigid"])),
+    }
+
+
+@st.composite
+def bodies(draw):
+    """Planes that cut a box or a cylinder, and now and then a corner that is moved."""
+    plane = st.floats(0.01, 0.99) | st.sampled_from([0.25, 0.5, 0.5 + 1e-9, 0.5 + 1e-3])
+    planes = st.lists(plane, max_size=2, unique=True)
+    return {
+        "planes": draw(st.lists(planes, min_size=3, max_size=3)),
+        "facets": draw(st.sampled_from([0, 0, 16, 17, 24, 8])),
+        "moved": draw(st.integers(0, 99)),
+        "by": draw(st.sampled_from([0.0, 0.0, 0.0, 1e-12, 1e-3, 0.3])),
+        "scale": draw(st.sampled_from([0.01, 0.01, 0.01, 1.0]) | ODD),
+        "short_edge": draw(st.sampled_from([0.0, 0.0, 0.06, 0.2, -1.0, math.nan])),
+        "model": draw(st.sampled_from(["flexible", "rigid"])),
+    }
+
+
+@pytest.fixture(scope="module")
+def labels():
+    one = Child("labels")
+    yield one
+    one.close()
+
+
+@pytest.fixture(scope="module")
+def own_cells():
+    one = Child("bodies")
+    yield one
+    one.close()
+
+
+@given(images())
+@drawing(80)
+def test_any_image_steps_or_is_refused(labels, image):
+    said = labels.run(image)
+    assert said.startswith(("done", "InputError: ")), said
+    assert "\n" not in said
+
+
+@given(bodies())
+@drawing(40)
+def test_any_cells_of_a_solid_step_or_are_refused(own_cells, body):
+    said = own_cells.run(body)
+    assert said.startswith(("done", "InputError: ")), said
+    assert "\n" not in said

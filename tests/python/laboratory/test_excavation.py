@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
 
+from flexpm.cli import main as cli
 from flexpm.errors import InputError
 
 SIDE, THICKNESS = 0.012, 0.01
@@ -34,6 +36,35 @@ def made(specimen: flexpm.Specimen, model: str = "flexible", **leaves: object):
     material = flexpm.materials.load(name).with_set(STRONG)
     rig = flexpm.PartRig(flexpm.build(specimen, material, model), **leaves)
     return rig, [rig.platen(side) for side in range(4)]
+
+
+@pytest.mark.parametrize("name", ["excavation:tunnel", "excavation:"])
+def test_names_of_excavations_are_of_no_joint(whole, name, tmp_path, capsys):
+    """Else the joint would be rock without a word: its law is not asked for."""
+    line = [(-0.001, 0.003), (0.013, 0.009)]
+    tables = {
+        "length": {"law": "constant", "value": 0.004},
+        "orientation": {"law": "constant", "angle": 30.0},
+    }
+    network = {"set": {name: {"intensity": 100.0, **tables}}}
+    (tmp_path / "a.csv").write_text(f"x1,y1,x2,y2,name\n-0.001,0.003,0.013,0.009,{name}\n")
+    feature = {"type": "LineString", "coordinates": line}
+    feature = {"type": "Feature", "properties": {"name": name}, "geometry": feature}
+    (tmp_path / "a.geojson").write_text(json.dumps(feature))
+    for cut in (
+        lambda: whole.with_joints({name: line}),
+        lambda: whole.with_network(network),
+        lambda: whole.joints_from_csv(tmp_path / "a.csv"),
+        lambda: whole.joints_from_geojson(tmp_path / "a.geojson"),
+        lambda: whole.with_excavations({name: CIRCLE}),
+    ):
+        with pytest.raises(InputError, match="must not begin with excavation:|must be a name"):
+            cut()
+    sizes = ["--width", "0.012", "--height", "0.024", "--thickness", "0.01"]
+    asked = [*sizes, "--joints", str(tmp_path / "a.csv"), "--out", str(tmp_path / "out")]
+    for command in (["run", "uniaxial"], ["specimen", "rectangle"]):
+        assert cli.main([*command, *asked]) == 2
+        assert "must not begin with excavation:" in capsys.readouterr().err
 
 
 def test_a_line_is_sawn_into_the_cells_and_is_rock_until_then(whole, sawn, tmp_path):

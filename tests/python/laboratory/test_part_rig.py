@@ -321,6 +321,7 @@ def test_handbook_functions_agree():
     ("options", "message"),
     [
         ({"span": 0.06}, "run: span = 0.06 m, must be < 0.056"),
+        ({"span": 1e-3}, "run: span = 0.001 m, must be > 0.003: both supports are more"),
         ({"notch": HEIGHT}, "run: notch = 0.012 m"),
         ({"span": 0.02, "notch": 0.004}, "run: span = 0.02 m, must be >= 0.03 m for a notched"),
         ({"confinement": 1e6}, "run: confinement = 1000000.0 Pa, must be 0 for bending"),

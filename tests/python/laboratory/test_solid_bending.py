@@ -119,6 +119,7 @@ def test_a_depth_asks_for_a_solid_and_its_folder_repeats(tmp_path, capsys, monke
         (["--depth", "0.02", "--confinement", "1e6"], "confinement = 1000000.0 Pa, must"),
         (["--depth", "0.02", "--model", "jcfpm"], "must be one of flexible, rigid"),
         (["--depth", "0.02", "--span", "0.2"], "span = 0.2 m, must be"),
+        (["--depth", "0.02", "--span", "0.001"], "span = 0.001 m, must be > 0.003: both supports"),
         (["--depth", "0.02", "--notch", "0.04"], "notch = 0.04 m, must be"),
         (["--depth", "0.02", "--notch", "0.01", "--span", "0.04"], "2.5 times the height"),
         (["--depth", "0.02", "--joints", "no.csv"], "joints = no.csv, must not be given for a box"),

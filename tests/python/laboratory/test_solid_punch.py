@@ -76,8 +76,19 @@ def test_threads_and_a_stop_change_no_bit(block, model, pressure, tmp_path, monk
         (["--depth", "0.008", "--thickness", "0.01"], "thickness = 0.01 m, must not be"),
         (["--depth", "0.008", "--model", "cohfrict"], "must be one of flexible, rigid"),
         (["--depth", "0.008", "--notch", "0.019"], "notch = 0.019 m, must be"),
-        (["--depth", "0.008", "--height", "0.013"], "default notch = 0.0026 m, must be < 0.0005"),
-        (["--depth", "0.008", "--height", "0.009"], "height = 0.009 m, must be > 0.012"),
+        (
+            ["--depth", "0.008", "--height", "0.013"],
+            "default notch = 0.0026 m, must be < 0.0005: a bridge between two notches has at least "
+            "4 mean grains of 0.003 m along it; take smaller grains or a larger specimen",
+        ),
+        (
+            ["--depth", "0.008", "--height", "0.009"],
+            "height = 0.009 m, must be > 0.012 m: a bridge between two notches has at least 4 mean",
+        ),
+        (
+            ["--depth", "0.008", "--width", "0.02"],
+            "default distance = 0.008 m, must be > 0.009: pairs of notches lie at least 3",
+        ),
         (
             ["--depth", "0.008", "--notch", "0.0001", "--distance", "0.011"],
             "ends within the first grains",

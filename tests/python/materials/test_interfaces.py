@@ -290,3 +290,11 @@ def test_a_picture_has_a_legend_of_the_cracks_of_each_pair(tmp_path, monkeypatch
     for pair, counts in result.cracks_by_pair.items():
         assert f"{pair}: {counts['tensile']} tensile, {counts['shear']} shear" in texts
     assert {"quartz", "biotite", "k-feldspar"} <= set(texts)
+
+
+@pytest.mark.parametrize("name", ["joint.fault", "interface.a/b"])
+def test_minerals_are_not_called_as_keys_of_joints_and_interfaces(name):
+    """Else ``--set joint.fault.friction=1`` made a joint in place of a change of the mineral."""
+    kinds = [{"name": name, "fraction": 1.0}]
+    with pytest.raises(InputError, match=rf"mineral = '{name}', must not begin with joint. or"):
+        Material.from_dict({**ROCK, "mineral": kinds})

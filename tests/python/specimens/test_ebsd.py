@@ -196,9 +196,124 @@ def test_steps_of_the_points_count_where_those_of_the_head_do_not_fit(tmp_path, 
     one, other = ebsd.read(path), ebsd.read(wrong)
     assert np.array_equal(one.raster, other.raster)
     assert other.grid.sides == pytest.approx(one.grid.sides, rel=1e-6)
-    assert one.grid.steps == "" and "steps" not in of(path).counts
+    assert one.grid.unlike_head == {}
     told = f"0.4 x {steps[1]} um by the points, not 0.4 x 0.1 um as in the head"
     assert of(wrong).counts["steps"] == told
+
+
+@pytest.mark.parametrize("kind", ["ctf", "ang"])
+@pytest.mark.parametrize("hexagonal", [False, True])
+def test_a_map_that_ends_early_is_refused_with_both_numbers(tmp_path, kind, hexagonal):
+    """The last rows are gone, whole or in part, or the last columns."""
+    _, phase, angles = map_of(10, 40, 9, 3, (1.0, 0.866), hexagonal)
+    text = {"ctf": ctf_text, "ang": ang_text}[kind](phase, angles, PHASES, (1.0, 0.866), hexagonal)
+    path = tmp_path / f"a.{kind}"
+    path.write_text(text)
+    whole = of(path).counts
+    assert whole["missing"] == 0 and "cells" not in whole
+    lines = text.splitlines()
+    points = 400 - 5 * hexagonal
+    head = lines[:-points]
+    assert len(lines) - len(head) == whole["points"] == points
+    for rows, kept in ((6, 240 - 3 * hexagonal), (7, 250 - 3 * hexagonal)):
+        path.write_text("\n".join(lines[: len(head) + kept]))
+        with pytest.raises(InputError, match=rf"= 40 x 10 points, 40 x {rows} are there; export"):
+            of(path)
+    # within the last row points are missing, which are counted as before
+    path.write_text("\n".join(lines[:-5]))
+    assert of(path).counts["missing"] == 5
+    # without the last column
+    last = {f"{x:.4f}" if kind == "ctf" else f"{x:.5f}" for x in (39.0, 38.5)}
+    place = 1 if kind == "ctf" else 3
+    path.write_text(
+        "\n".join([*head, *(p for p in lines[len(head) :] if p.split()[place] not in last)])
+    )
+    with pytest.raises(InputError, match=r"= 40 x 10 points, 39 x 10 are there"):
+        of(path)
+
+
+@pytest.mark.parametrize("times", [2, 3])
+@pytest.mark.parametrize("kind", ["ctf", "ang"])
+def test_a_map_that_was_thinned_tells_its_steps_and_points(tmp_path, kind, times):
+    """Each second or third point of each such row, below the head of the whole map."""
+    _, phase, angles = map_of(30, 40, 9, 3)
+    make = {"ctf": ctf_text, "ang": ang_text}[kind]
+    head = make(phase, angles, PHASES).splitlines()[:-1200]
+    thin = np.s_[::times, ::times]
+    own = make(phase[thin], angles[thin], PHASES, (float(times), float(times))).splitlines()
+    count = phase[thin].size
+    path = tmp_path / f"a.{kind}"
+    path.write_text("\n".join([*head, *own[-count:]]))
+    found = of(path)
+    rows, columns = phase[thin].shape
+    assert found.labels.shape == (rows, columns)
+    assert found.counts["missing"] == 0
+    assert (
+        found.counts["steps"] == f"{times} x {times} um by the points, not 1 x 1 um as in the head"
+    )
+    assert found.counts["cells"] == f"{columns} x {rows} by the points, not 40 x 30 as in the head"
+    # a thinned map that ends early, too, is refused
+    path.write_text("\n".join([*head, *own[-count : -4 * columns]]))
+    with pytest.raises(InputError, match=rf"= 40 x 30 points, {columns} x {rows - 4} are there"):
+        of(path)
+
+
+def test_heads_without_numbers_of_points_are_read_as_they_are(tmp_path):
+    _, phase, angles = map_of(10, 12, 5, 3)
+    for kind, make in (("ctf", ctf_text), ("ang", ang_text)):
+        text = make(phase, angles, PHASES)
+        kept = [row for row in text.splitlines() if "Cells" not in row and "NCOLS" not in row]
+        path = tmp_path / f"a.{kind}"
+        path.write_text(text)
+        expected = of(path)
+        path.write_text("\n".join(row for row in kept if "NROWS" not in row))
+        found = of(path)
+        assert np.array_equal(found.labels, expected.labels) and found.counts == expected.counts
+
+
+def test_a_grid_of_another_kind_than_in_the_head_is_told_as_such(tmp_path):
+    _, phase, angles = map_of(10, 12, 5, 3, (0.5, 0.5))
+    text = ang_text(phase, angles, PHASES, (0.5, 0.5))
+    (tmp_path / "a.ang").write_text(text.replace("SqrGrid", "HexGrid"))
+    found = of(tmp_path / "a.ang").counts
+    assert found["grid"] == "square by the points, not hexagonal as in the head"
+    assert "steps" not in found and "cells" not in found
+    six = (0.5, 0.433)
+    _, phase, angles = map_of(10, 12, 5, 3, six, hexagonal=True)
+    text = ang_text(phase, angles, PHASES, six, hexagonal=True)
+    (tmp_path / "a.ang").write_text(text.replace("HexGrid", "SqrGrid"))
+    found = of(tmp_path / "a.ang").counts
+    assert found["grid"] == "hexagonal by the points, not square as in the head"
+    assert "steps" not in found and "cells" not in found
+
+
+def layered(text, layers):
+    """A map of several layers, as programs for volumes write it."""
+    lines = text.replace("YCells", f"ZCells\t{layers}\nYCells").splitlines()
+    first = next(at for at, row in enumerate(lines) if row.startswith("Phase\t")) + 1
+    lines[first - 1] = lines[first - 1].replace("Y\t", "Y\tZ\t")
+    found = lines[:first]
+    for layer in range(layers):
+        for row in lines[first:]:
+            cells = row.split("\t")
+            found.append("\t".join([*cells[:3], f"{layer:.4f}", *cells[3:]]))
+    return "\n".join(found)
+
+
+def test_maps_of_several_layers_are_refused_by_what_they_are(tmp_path):
+    _, phase, angles = map_of(10, 12, 5, 3)
+    text = ctf_text(phase, angles, PHASES)
+    path = tmp_path / "a.ctf"
+    path.write_text(layered(text, 5))
+    with pytest.raises(InputError, match="ZCells = 5, must be 1: volumes are not read, Neper"):
+        of(path)
+    path.write_text(layered(text, 5).replace("ZCells\t5\n", ""))
+    with pytest.raises(InputError, match="Z = 5 layers, must be 1: volumes are not read"):
+        of(path)
+    path.write_text(text)
+    expected = of(path)
+    path.write_text(layered(text, 1))
+    assert np.array_equal(of(path).labels, expected.labels)
 
 
 @pytest.mark.parametrize("hexagonal", [False, True])
@@ -269,6 +384,13 @@ def broken():
         ("a.ctf", ctf.replace("XStep\t1.0\n", ""), "XStep is missing"),
         ("a.ctf", ctf.replace("Mode\tGrid", "Mode\tInteractive"), "line 4: JobMode = Interactive"),
         ("a.ctf", ctf.replace("XStep\t1.0", "XStep\tx"), "line 7: XStep = 'x', must be a number"),
+        ("a.ctf", ctf.replace("XCells\t4", "XCells\tx"), "line 5: XCells = 'x', must be a number"),
+        (
+            "a.ctf",
+            ctf.replace("XCells\t4", "XCells\t4.5"),
+            "XCells = '4.5', must be a whole number",
+        ),
+        ("a.ang", ang.replace("NROWS: 3", "NROWS: -3"), "NROWS = '-3', must be a whole number"),
         ("a.ctf", ctf.replace("1\t2.0000", "1\t2.3000"), "must be on the grid of steps 1 and 1"),
         ("a.ctf", ctf.replace("Biotite\t2", "Biotite\t12"), "Laue group = 12, must be 1 to 11"),
         ("a.ctf", ctf.replace("Phases\t2", "Phases\t3"), "line 16: Laue group = 'Bands', must"),

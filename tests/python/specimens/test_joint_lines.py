@@ -35,6 +35,14 @@ def test_a_file_of_joints(tmp_path):
     }
 
 
+def test_a_file_of_a_spreadsheet(tmp_path):
+    """A byte-order mark, blanks, columns and rows of empty cells, Windows' ends of lines."""
+    file = tmp_path / "joints.csv"
+    text = "name ,x1, y1,x2,y2,\na,0,0.01 ,0.01,0.02\n , ,,,,\na,0.01,0.02,0.02,0.02,,\n,,,,,\n\n"
+    file.write_text("\ufeff" + text, newline="\r\n")
+    assert joint_lines.read(file) == {"a": [[(0.0, 0.01), (0.01, 0.02), (0.02, 0.02)]]}
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -54,6 +62,10 @@ def test_a_file_of_joints(tmp_path):
         ("x1,y1,x2,y2,x1,name\n0,0,1,1,5,a\n", "must have rows and the columns .*, each once"),
         ('x1,y1,x2,y2,name\n0,0,1,1,"a\tb"\n', r"line 2, joint .*: name = .*, must be a name"),
         ('x1,y1,x2,y2,name\n0,0,1,1,"a\nb"\n', r"joint .*: name = .*, must be a name"),
+        (
+            "x1,y1,x2,y2,name\n0,0,1,1,excavation:fault\n",
+            "line 2, joint 'excavation:fault': name = .*, must not begin with excavation:",
+        ),
         ("x1,y1,x2,y2,name\n0,0,nan,1,a\n", "line 2, joint 'a': x2 = 'nan' m, must be a number"),
     ],
 )

@@ -302,7 +302,12 @@ def test_an_image_is_read_before_yade_is_loaded():
     subprocess.run([sys.executable, "-c", code], env=environment, check=True)
 
 
-def test_images_that_cannot_be_read_are_refused_in_one_line(tmp_path, capsys):
+def test_volumes_of_labels_are_refused_by_what_they_are():
+    with pytest.raises(InputError, match=r"shape \(2, 3, 4\), must be rows of one image: volumes"):
+        Specimen.from_labels(np.zeros((2, 3, 4), int), PIXEL, 0.01)
+
+
+def test_images_that_cannot_be_read_are_refused_in_one_line(tmp_path, capfd):
     (tmp_path / "phases.toml").write_text(PHASES.replace('"#0000ff" = "hole"\n', ""))
     picture = COLOURS[np.arange(100).reshape(10, 10) // 34]
     Image.fromarray(picture).save(tmp_path / "colours.png")
@@ -314,10 +319,23 @@ def test_images_that_cannot_be_read_are_refused_in_one_line(tmp_path, capsys):
     np.save(tmp_path / "fractions.npy", np.full((5, 5), 0.25))
     np.save(tmp_path / "texts.npy", np.full((5, 5), "quartz"))
     np.save(tmp_path / "gaps.npy", np.full((5, 5), np.nan))
+    np.save(tmp_path / "volume.npy", np.zeros((3, 5, 5), int))
+    (tmp_path / "head.npy").write_bytes(b"\x93NUMPY\x02\x00" + b"\xff" * 4 + b"{" * 188)
+    for kind in ("jpeg", "tiff_adobe_deflate"):  # no such data within
+        Image.fromarray(picture[..., 0]).save(tmp_path / "a.tif", compression=kind)
+        with Image.open(tmp_path / "a.tif") as image:
+            (first,), (size,) = image.tag_v2[273], image.tag_v2[279]
+        content = bytearray((tmp_path / "a.tif").read_bytes())
+        content[first : first + size] = bytes(size)
+        (tmp_path / f"{'jpeg' if kind == 'jpeg' else 'zip'}.tif").write_bytes(content)
     (tmp_path / "none.png").write_bytes(b"no image")
     for file, words in {
         "colours.png": "image colour = #0000ff of 32 pixels, one at row 6, column 8, is missing",
-        "pages.tif": "image = 2 pages, must be one",
+        "pages.tif": "image = 2 pages, must be one: volumes are not read, Neper's .tess is",
+        "volume.npy": "array of shape (3, 5, 5), must be rows of one image: volumes are not read",
+        "jpeg.tif": "must be a PNG, TIFF, NPY or TESR file: JPEGLib: ",
+        "zip.tif": "must be a PNG, TIFF, NPY or TESR file: ZIPDecode: ",
+        "head.npy": "must be an array of numbers: head = 4294967295 bytes, must be <= 10000",
         "clear.png": "image opacity = 100 of 255 at row 0, column 0, must be full",
         "objects.npy": "must be an array of numbers",
         "fractions.npy": "labels = 0.25 at row 0, column 0, must be whole numbers",
@@ -329,7 +347,7 @@ def test_images_that_cannot_be_read_are_refused_in_one_line(tmp_path, capsys):
         named = ("colours.png", "texts.npy", "gaps.npy")
         phases = ["--phases", str(tmp_path / "phases.toml")] if file in named else []
         assert command(tmp_path, file, *phases) == 2, file
-        lines = capsys.readouterr().err.strip().splitlines()
+        lines = capfd.readouterr().err.strip().splitlines()
         assert len(lines) == 1 and words in lines[0], lines
 
 

@@ -189,9 +189,15 @@ def test_cells_of_a_raster_are_bytes_or_in_a_file_of_their_own(tmp_path, kind):
         path.write_bytes(tesr_bytes(LABELS, kind, FORMS[kind]))
         assert np.array_equal(tesr.read(path), LABELS)
         data = LABELS[::-1].astype(FORMS[kind]).tobytes()
+        path.write_bytes(path.read_bytes().replace(data, data + data[:4]))
+        with pytest.raises(InputError, match="data = more than 12 pixels, must be 12"):
+            tesr.read(path)
     (tmp_path / "cells.raw").write_bytes(data)
     path.write_text(text[: text.index("ascii")] + f"{kind}\n *file cells.raw\n***end\n")
     assert np.array_equal(tesr.read(path), LABELS)
+    (tmp_path / "cells.raw").write_bytes(data + (b"1" if kind == "ascii" else data))
+    with pytest.raises(InputError, match="data = (24|more than 12) pixels, must be 12"):
+        tesr.read(path)
     (tmp_path / "cells.raw").write_bytes(data[: len(data) // 2])
     with pytest.raises(InputError, match="data = 6 pixels, must be 12|cell of a pixel = ''"):
         tesr.read(path)
@@ -223,12 +229,17 @@ def test_bytes_of_orientations_follow_the_cells_of_a_raster(tmp_path):
 def test_rasters_that_are_none_in_the_plane_are_refused(tmp_path, capsys):
     good = tesr_text(np.full((8, 8), 1))
     for text, words in (
-        (good.replace("   2\n", "   3\n"), "dimension = 3, must be 2: stacks are not read"),
+        (good.replace("   2\n", "   3\n"), "dimension = 3, must be 2: volumes are not read, Neper"),
         (good.replace("0.01 0.01", "0.01 0.02"), "pixel = 0.01 x 0.02, must be square"),
         (good.replace("ascii", "binary32"), "pixels, must be 64; complete it"),
         (good.replace("ascii", "binary7"), "data format = 'binary7', must be ascii or one of"),
         (good.replace("ascii", "ascii *file a.raw"), "a.raw', must be a file; put it there"),
         (good.replace("**data", "**dada"), "**data is missing, must tell the cell of each pixel"),
+        (good.replace("8 8", "8 4"), "data = more than 32 pixels, must be 32 by the size in"),
+        (
+            good.replace(" **data", " **cell\n   3\n **data").replace("1 1 1", "1 4 1"),
+            "= 4, must be <= 3",
+        ),
         (good.replace("8 8", "80 80"), "cell of a pixel = '***end', must be a whole number"),
         (good.replace("8 8", "99999 99999"), "size = 99999 x 99999 pixels, must be <="),
         (good.replace("1 1 1", "1 0 1"), "image label = 0, is void"),

@@ -6,12 +6,15 @@ import math
 
 import numpy as np
 import pytest
+from neper_files import tess_text
 
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.materials.material import Material
 from flexpm.report.maps import cell_polygons
 from flexpm.specimens.kernel_input import Circle
+from flexpm.specimens.mineral_map import minerals_of
 from flexpm.specimens.specimen import Specimen
 
 #: Two courses of bricks: the joint of the upper ones lies on an edge of the lower one.
@@ -20,6 +23,16 @@ BRICKS = [
     [(0, 1), (1, 1), (1, 2), (0, 2)],
     [(1, 1), (2, 1), (2, 2), (1, 2)],
 ]
+
+
+#: Two minerals, one of each half of the area.
+TWO = Material.from_dict(
+    {
+        **{"tensile_strength": 8e6, "cohesion": 30e6, "friction": 0.4, "softening": "brittle"},
+        "elastic": {"rigid": {"normal_stiffness": 1e14, "shear_ratio": 0.3}},
+        "mineral": [{"name": name, "fraction": 0.5} for name in ("quartz", "mica")],
+    }
+)
 
 
 def scaled(polygons, size=1e-3):
@@ -65,6 +78,70 @@ def test_a_bent_cell_is_split():
     assert specimen.tessellation.cells == 3
     assert math.fsum(specimen.tessellation.cell_areas) == pytest.approx(9e-6, rel=1e-12)
     assert specimen.kind == "rectangle"
+
+
+def area_of(polygon):
+    (x, y), (next_x, next_y) = np.transpose(polygon), np.roll(polygon, -1, axis=0).T
+    return 0.5 * abs(float(np.sum(x * next_y - next_x * y)))
+
+
+def test_pieces_of_a_split_cell_know_their_cell(tmp_path):
+    """Areas of the pieces sum up to those of the given cells, from polygons and from Neper."""
+    bent = [(0, 0), (3, 0), (3, 3), (2.8, 3), (2.8, 0.2), (0.2, 0.2), (0.2, 3), (0, 3)]
+    fill = [(0.2, 0.2), (2.8, 0.2), (2.8, 3), (0.2, 3)]
+    given = scaled([bent, fill])
+    split = Specimen.from_polygons(given, 0.01)
+    assert split.grains.tolist() == [0, 1, 0]
+    around = scaled([SQUARE, square_at(4, 5), square_at(6, 5)])
+    rings = Specimen.from_polygons(around, 0.01)
+    corners = sorted({corner for ring in (bent, fill) for corner in ring})
+    text = tess_text(corners, [[corners.index(corner) for corner in ring] for ring in (bent, fill)])
+    (tmp_path / "a.tess").write_text(text)
+    for specimen, cells in (
+        (split, given),
+        (rings, around),
+        (Specimen.from_tess(tmp_path / "a.tess", 0.01, scale=1e-3), given),
+    ):
+        areas = np.bincount(specimen.grains, specimen.tessellation.cell_areas)
+        expected = [area_of(cell) for cell in cells]
+        if cells is around:
+            expected[0] -= sum(expected[1:])
+        np.testing.assert_allclose(areas, expected, rtol=1e-9)
+        specimen.save(tmp_path / "it.json")
+        again = Specimen.load(tmp_path / "it.json")
+        assert again.spec == specimen.spec
+        np.testing.assert_array_equal(again.grains, specimen.grains)
+        # a mineral is drawn for each given cell, not for each piece
+        drawn = minerals_of(specimen, TWO)
+        for grain in range(len(cells)):
+            assert len({*drawn[specimen.grains == grain].tolist()}) == 1
+    # whole cells are grains each
+    assert Specimen.from_polygons(scaled(BRICKS), 0.01).grains is None
+
+
+def test_pieces_of_a_sawn_grain_know_it(tmp_path):
+    """A slot through the first cells of a packing parts some grains in two."""
+    slot = [(0.0, 0.0), (0.02, 0.0), (0.02, 0.02), (0.0102, 0.02), (0.0102, 0.004)]
+    slot += [(0.0098, 0.004), (0.0098, 0.02), (0.0, 0.02)]
+    sawn = Specimen.polygon(slot, 0.01)
+    assert sawn.grains is not None
+    count = int(sawn.grains.max()) + 1
+    assert count < sawn.tessellation.cells
+    halves = np.flatnonzero(np.bincount(sawn.grains) == 2)
+    assert len(halves) >= 3
+    for grain in halves:  # one on each side, at most a grain's diameter apart
+        places = sawn.centres[sawn.grains == grain]
+        assert np.hypot(*(places[1] - places[0])) < 4e-3
+    cut = sawn.with_joints({"a": [(-0.001, 0.0103), (0.021, 0.0121)]})
+    areas = np.bincount(sawn.grains, sawn.tessellation.cell_areas)
+    np.testing.assert_allclose(np.bincount(cut.grains, cut.tessellation.cell_areas), areas)
+    for specimen in (sawn, cut):
+        specimen.save(tmp_path / "it.json")
+        again = Specimen.load(tmp_path / "it.json")
+        assert again.spec == specimen.spec
+        np.testing.assert_array_equal(again.grains, specimen.grains)
+    # without a part that is sawn in two there is nothing to tell
+    assert Specimen.polygon([(0, 0), (0.02, 0), (0, 0.02)], 0.01).grains is None
 
 
 SQUARE = [(0, 0), (10, 0), (10, 10), (0, 10)]

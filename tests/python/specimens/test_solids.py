@@ -3,6 +3,7 @@
 
 import json
 import math
+import types
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 import flexpm
 from flexpm import Specimen
 from flexpm.errors import InputError
+from flexpm.specimens.joint_cutting import Excavatable
 
 
 @pytest.fixture(scope="module")
@@ -152,6 +154,14 @@ def test_wrong_input_is_refused_in_one_line(make, message):
     assert "\n" not in str(refused.value)
 
 
+def test_a_solid_has_each_method_of_a_2d_specimen(box):
+    """What it cannot do it refuses in one line: an AttributeError would name no remedy."""
+    plane = vars(flexpm.Specimen) | vars(Excavatable)
+    methods = [name for name, one in plane.items() if isinstance(one, types.FunctionType)]
+    missing = [name for name in methods if name[0] != "_" and not hasattr(box, name)]
+    assert missing == []
+
+
 @pytest.mark.parametrize(
     ("use", "message"),
     [
@@ -163,6 +173,17 @@ def test_wrong_input_is_refused_in_one_line(make, message):
         (lambda solid: flexpm.run("tension", solid, start="static"), "static, must be left out"),
         (lambda solid: flexpm.build(solid, mesh="fan"), "must be left out for a solid"),
         (lambda solid: flexpm.build(solid, model="inner"), "one of flexible, rigid"),
+        (lambda solid: solid.with_joints({"a": [(0, 0), (1, 1)]}), "with_joints: specimen = box"),
+        (
+            lambda solid: solid.joints_from_csv("a.csv"),
+            "must be 2D: joints are available in 2D only",
+        ),
+        (lambda solid: solid.joints_from_geojson("a.geojson"), "must be 2D: joints"),
+        (lambda solid: solid.with_network("a.toml"), "must be 2D: fracture networks"),
+        (lambda solid: solid.with_excavations({"a": ((0, 0), 1)}), "must be 2D: excavations"),
+        (lambda solid: solid.excavation("a"), "must be 2D: excavations"),
+        (lambda solid: solid.with_strengths([1.0]), "must be 2D: strengths of single contacts"),
+        (lambda solid: solid.with_weibull_strengths(3.0), "with_weibull_strengths: specimen = box"),
     ],
 )
 def test_what_is_of_the_plane_alone_is_refused(use, message, box):

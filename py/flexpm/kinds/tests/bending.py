@@ -22,7 +22,7 @@ _SPAN, _LARGEST_SPAN = 4.0, 8.0 / 9.0
 def _settle(asked: Asked) -> Mapping[str, Value]:
     width, height = asked.sizes["width"], asked.sizes["height"]
     usual = min(_SPAN * height, _LARGEST_SPAN * width)
-    span = asked.number("span", usual, Bounds(above=0.0, below=width))
+    span = bent.span_of(asked, usual, width)
     notch = asked.number("notch", 0.0, Bounds(at_least=0.0, below=height))
     require_span(span, height, notch)
     return {"span": span, "notch": notch}

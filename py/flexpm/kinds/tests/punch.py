@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ...require import NOT_NEGATIVE, Bounds, require_number
+from ...errors import InputError
+from ...require import NOT_NEGATIVE, Bounds
 from .. import slid
 from ..layout import LEFT, RIGHT, Frame, Layout, Lines, Plate
 from ..model_names import BLOCK_MODELS
@@ -30,17 +31,24 @@ _SLOT = {"open": True, "friction": 0.0, "normal_stiffness": 1e6, "shear_stiffnes
 
 def _settle(asked: Asked) -> Mapping[str, Value]:
     width, height = asked.sizes["width"], asked.sizes["height"]
-    grain = asked.diameter or 0.0
-    bridge = _FEWEST_GRAINS * grain
-    require_number("run: height", height, Bounds(above=bridge), "m")
+    bridge, apart = _FEWEST_GRAINS * asked.grain, _LEAST_DISTANCE * asked.grain
+    long, far = (
+        f"{what} at least {grains:g} mean grains of {asked.grain:g} m {where}; take smaller grains "
+        "or a larger specimen"
+        if asked.grain > 0.0
+        else ""
+        for what, grains, where in (
+            ("a bridge between two notches has", _FEWEST_GRAINS, "along it"),
+            ("pairs of notches lie", _LEAST_DISTANCE, "from each other and from the sides"),
+        )
+    )
+    if not height > bridge:
+        raise InputError(f"run: height = {height:g} m, must be > {bridge:g} m: {long}")
     deepest = 0.5 * (height - bridge)
-    notch = asked.number("notch", _NOTCH * height, Bounds(at_least=0.0, below=deepest))
-    apart = _LEAST_DISTANCE * grain
+    notch = asked.number("notch", _NOTCH * height, Bounds(at_least=0.0, below=deepest), why=long)
     bounds = Bounds(above=apart, below=width - 2.0 * apart)
-    found: dict[str, Value] = {
-        "notch": notch,
-        "distance": asked.number("distance", _DISTANCE * width, bounds),
-    }
+    distance = asked.number("distance", _DISTANCE * width, bounds, why=far)
+    found: dict[str, Value] = {"notch": notch, "distance": distance}
     return found | slid.way(asked, height)
 
 

@@ -21,7 +21,7 @@ _SPAN, _NOTCH = 0.6, 0.5
 
 def _settle(asked: Asked) -> Mapping[str, Value]:
     diameter = asked.sizes["diameter"]
-    span = asked.number("span", _SPAN * diameter, Bounds(above=0.0, below=diameter))
+    span = bent.span_of(asked, _SPAN * diameter, diameter)
     bounds = Bounds(at_least=0.0, below=0.5 * diameter)
     notch = asked.number("notch", 0.5 * _NOTCH * diameter, bounds)
     require_half_disc(span, 0.5 * diameter, notch)

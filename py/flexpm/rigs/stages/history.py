@@ -4,14 +4,13 @@
 from __future__ import annotations
 
 import csv
-import io
 import math
 from pathlib import Path
 
 import numpy as np
 
 from ...errors import InputError
-from ...files import read_text
+from ...files import csv_rows, read_text
 from ...require import quoted
 
 #: What a unit that may stand in a history's row of units is in SI, by what it measures.
@@ -74,9 +73,7 @@ def _numbers(name: str, given: object) -> list[float]:
 def _rows_of(path: Path, unit: str) -> list[tuple[int, float, float]]:
     """Line, time and value of each row of a file, in SI units."""
     try:
-        text = read_text(path).removeprefix("\ufeff")  # as spreadsheets begin their files
-        cells = csv.reader(io.StringIO(text, newline=""))
-        lines = [(n, row) for n, row in enumerate(cells, 1) if any(row)]
+        lines = list(csv_rows(read_text(path)))
     except OSError as error:
         raise InputError(f"follow: file = {str(path)!r}, {error.strerror}") from None
     except UnicodeDecodeError:

@@ -291,19 +291,22 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
     spec, lines, grains = found["spec"], found["joints"], found.get("grains")
     names = spec.joint_names or ()
     [*map(Network.of, spec.networks or ())]
-    of_image = spec.joints is None and spec.cells is not None  # its grains may have pieces, too
-    some = (spec.joints is None) is not (grains is None) and not (of_image and not names)
+    # grains that were given or sawn may have pieces without a joint, too
+    sawn = spec.outline is not None and spec.discs is None
+    may_be_split = spec.cells is not None or sawn
+    some = (spec.joints is None) is not (grains is None)
+    some = some and not (may_be_split and spec.joints is None and not names)
     if some or bool(names) is (spec.joints is None):
         raise refuse("joints, joint_names and grains = some, must be all there or none")
     if grains is not None:
-        count = int(np.max(grains)) + 1
-        if not np.array_equal(grains[:count], np.arange(count)):
-            raise refuse("grains = others, must be numbers of cells, whole grains first")
+        numbers, first = np.unique(grains, return_index=True)
+        if not (np.array_equal(numbers, np.arange(len(first))) and np.all(np.diff(first) > 0)):
+            raise refuse("grains = others, must be numbered as they come first")
         # what a cut has parted meets at the cut, but for the few cells that had to be split
         pairs = found["tessellation"].shared_edges[:, :2]
         parted = grains[pairs[:, 0]] == grains[pairs[:, 1]]
         cut = np.count_nonzero(parted & (tiling.edge_joints >= 0))
-        if spec.cells is None and 2 * cut < np.count_nonzero(parted):
+        if not may_be_split and 2 * cut < np.count_nonzero(parted):
             raise refuse("grains = others, must be parted by joints alone")
     used = tiling.edge_joints[tiling.edge_joints >= 0]
     cuts = found["joint_cuts"]  # lines of a joint may cut nothing

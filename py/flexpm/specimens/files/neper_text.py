@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ...errors import InputError
-from ...files import read_bytes
+from ...files import read_bytes, text_of
 from ...require import quoted
 
 #: Largest file [byte].
@@ -40,7 +40,7 @@ class Words:
             content = read_bytes(path, _LARGEST)
             begin = _BINARY.search(content)
             end = begin.end() if begin else len(content)
-            text, self.binary = content[:end].decode(), content[end:]
+            text, self.binary = text_of(content[:end]), content[end:]
         except OSError as error:
             raise InputError(
                 f"{self._name}, cannot be read ({error.strerror}); give a file of Neper"
@@ -59,6 +59,11 @@ class Words:
     def section(self) -> str:
         """The mark that comes next, such as ``**cell``; empty for another word."""
         return self._next if self._next.startswith("*") else ""
+
+    @property
+    def is_over(self) -> bool:
+        """Whether no word is left."""
+        return not self._next
 
     @property
     def is_zero(self) -> bool:

@@ -130,7 +130,7 @@ def parts(content: Table) -> Table:
         "removed_discs": content["removed_discs"],
         "mineral_names": tuple(content.get("mineral_names", ())),
         "holes": tuple(np.array(hole, dtype=float) for hole in content["holes"]),
-        "joints": checked(content["lines"]) if content.get("lines") else {},
+        "joints": checked(content["lines"], excavations=True) if content.get("lines") else {},
         "joint_cuts": {name: Cut.from_json(cut) for name, cut in content.get("cuts", {}).items()},
     }
     found |= {key: np.array(values, dtype=np.int32) for key, values in given.items()}

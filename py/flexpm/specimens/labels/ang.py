@@ -10,7 +10,7 @@ import numpy as np
 
 from ...arrays import BoolArray, FloatArray, IntArray
 from . import laue
-from .orientation_map import MapText, OrientationMap, Phase
+from .orientation_map import Head, MapText, OrientationMap, Phase
 
 #: Laue groups by the symmetry in these files, and the direction of a twofold axis.
 _GROUPS = {
@@ -25,6 +25,8 @@ _GROUPS |= {name: _GROUPS[short] for name, short in _FULL.items()}
 _GROUPS |= {name: (name, "") for name in laue.NAMES if name not in _GROUPS}
 #: Columns: phi1, Phi, phi2, x, y, image quality, confidence, phase.
 _COLUMNS = (0, 1, 2, 3, 4, 6, 7)
+#: Points in the first row, in the second one, and rows.
+_COUNTS = ("NCOLS_ODD", "NCOLS_EVEN", "NROWS")
 #: Angles of points that were not indexed are 4 pi.
 _NO_ANGLE = 4.0 * math.pi - 1e-3
 
@@ -58,7 +60,7 @@ def read(path: Path) -> OrientationMap:
             if number in phases or number < 0:  # files without lines of numbers count from 1
                 number = len(phases) + 1
             phases[number] = Phase(name, laue.rotations(*group))
-        elif key in ("GRID", "XSTEP", "YSTEP"):
+        elif key in ("GRID", "XSTEP", "YSTEP", *_COUNTS):
             head.setdefault(key, (value.rstrip("#"), first))
     if not phases:
         raise text.refused("Symmetry is missing, must be there for each phase; complete the head")
@@ -72,10 +74,17 @@ def read(path: Path) -> OrientationMap:
     steps = (
         (text.step("XSTEP", *head["XSTEP"]), text.step("YSTEP", *head["YSTEP"])) if both else None
     )
+    odd, even, rows = (text.count(key, *head[key]) if key in head else 0 for key in _COUNTS)
+    columns = max(odd, even)
     values = text.table(first, _COLUMNS)
     indexed = (values[:, 5] >= 0.0) & (np.abs(values[:, :3]) < _NO_ANGLE).all(axis=1)
     phase = _indices(text, values[:, 6], indexed, list(phases))
-    grid = text.grid(values[:, 3], values[:, 4], steps, kind == "HexGrid")
+    shape = (columns, rows) if columns and rows else None
+    grid = text.grid(
+        values[:, 3],
+        values[:, 4],
+        Head(steps, kind == "HexGrid", shape, "NCOLS_ODD or NCOLS_EVEN x NROWS"),
+    )
     turned = laue.orientations(np.where(indexed[:, None], values[:, :3], 0.0), degrees=False)
     return OrientationMap.of(list(phases.values()), phase, turned, grid)
 

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from . import laue
-from .orientation_map import MapText, OrientationMap, Phase, is_hexagonal
+from .given import NO_VOLUMES
+from .orientation_map import Head, MapText, OrientationMap, Phase
 
 #: Laue groups by their number in these files, from 1.
 _GROUPS = ("-1", "2/m", "mmm", "4/m", "4/mmm", "-3", "-3m", "6/m", "6/mmm", "m-3", "m-3m")
@@ -24,7 +25,7 @@ def read(path: Path) -> OrientationMap:
     """
     text = MapText(path)
     lines = text.lines
-    if not lines or not lines[0].lstrip("\ufeff").startswith("Channel Text File"):
+    if not lines or not lines[0].startswith("Channel Text File"):
         raise text.refused("must begin with Channel Text File; give a .ctf file", 0)
     found: dict[str, tuple[str, int]] = {}
     for line, row in enumerate(lines):
@@ -42,24 +43,37 @@ def read(path: Path) -> OrientationMap:
         if key not in found:
             raise text.refused(f"{key} is missing, must be in the head; complete it")
     steps = (text.step("XStep", *found["XStep"]), text.step("YStep", *found["YStep"]))
+    cells = [
+        text.count(key, *found[key]) if key in found else 0
+        for key in ("XCells", "YCells", "ZCells")
+    ]
+    if cells[2] > 1:
+        raise text.refused(
+            f"ZCells = {cells[2]}, must be 1: {NO_VOLUMES}; export one slice",
+            found["ZCells"][1],
+        )
     count, first = found["Phases"]
     number = int(text.number("Phases", count, first))
     if not 1 <= number <= _MOST_PHASES:
         raise text.refused(f"Phases = {number}, must be 1 to {_MOST_PHASES}; correct it", first)
     phases = [_phase(text, line) for line in range(first + 1, first + 1 + number)]
-    head = first + 1 + number
-    names = lines[head].split() if head < len(lines) else []
+    row = first + 1 + number
+    names = lines[row].split() if row < len(lines) else []
     missing = [name for name in _COLUMNS if name not in names]
     if missing:
-        raise text.refused(f"columns: {', '.join(missing)} missing, must be there", head)
-    values = text.table(head + 1, [names.index(name) for name in _COLUMNS])
+        raise text.refused(f"columns: {', '.join(missing)} missing, must be there", row)
+    given = [*_COLUMNS, *(["Z"] if "Z" in names else [])]
+    values = text.table(row + 1, [names.index(name) for name in given])
     phase, x, y = values[:, :3].T
+    layers = len(np.unique(values[:, len(_COLUMNS) :]))
+    if layers > 1:
+        raise text.refused(f"Z = {layers} layers, must be 1: {NO_VOLUMES}; export one slice", row)
     if len(phase) and not (np.isin(phase, np.arange(number + 1))).all():
         wrong = int(np.flatnonzero(~np.isin(phase, np.arange(number + 1)))[0])
         raise text.refused(f"point {wrong + 1}: Phase = {phase[wrong]:g}, must be 0 to {number}")
-    # the head of these files does not say whether rows begin half a step aside
-    grid = text.grid(x, y, steps, is_hexagonal(x, steps[0]))
-    turned = laue.orientations(values[:, 3:], degrees=True)
+    shape = (cells[0], cells[1]) if cells[0] and cells[1] else None
+    grid = text.grid(x, y, Head(steps, None, shape, "XCells x YCells"))
+    turned = laue.orientations(values[:, 3:6], degrees=True)
     return OrientationMap.of(phases, phase.astype(int) - 1, turned, grid)
 
 

@@ -36,8 +36,8 @@ class OrientedGrains:
         labels: Label of each pixel, the first row on top.
         minerals: Index of each label's mineral in `names`; None for a hole.
         names: Minerals in the order of the file's phases.
-        counts: Points, those not indexed, and those of them that were filled; ``steps`` where those
-            of the file's head do not fit.
+        counts: Points, those not indexed, and those of them that were filled; ``steps``, ``grid``
+            and ``cells`` where they differ from the file's head.
     """
 
     labels: IntArray
@@ -109,8 +109,7 @@ def grains(
     labels = _components(found, pairs, misorientation)
     measured = len(found.phase) - found.missing
     counts: Table = {"points": measured, "not_indexed": measured - points, "missing": found.missing}
-    if found.grid.steps:
-        counts["steps"] = found.grid.steps
+    counts |= found.grid.unlike_head
     if unindexed == "fill":
         source = _fill(labels, pairs)
         counts["filled"] = int(np.count_nonzero(source != np.arange(len(source))))

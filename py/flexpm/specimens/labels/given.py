@@ -26,6 +26,8 @@ _WHERE = "Specimen.from_labels"
 MOST_PIXELS = 20_000_000
 #: Grains of an image.
 MOST_GRAINS = 100_000
+#: Why a file or an array of three dimensions is refused.
+NO_VOLUMES = "volumes are not read, Neper's .tess is"
 #: Default spacing of corners over the mean diameter of the grains [-], and the least one [pixels].
 _EDGE, LEAST_EDGE = 0.25, 2.0
 #: Least parts of their convex hulls that pieces fill [-]: the next one if no mesh fits the pieces.
@@ -126,6 +128,11 @@ def whole_labels(labels: npt.ArrayLike) -> IntArray:
         InputError: for what is no picture of whole numbers, or is too large.
     """
     given = np.asarray(labels)
+    if given.ndim == 3:
+        raise InputError(
+            f"{_WHERE}: labels = array of shape {given.shape}, must be rows of one image: "
+            f"{NO_VOLUMES}; give one slice"
+        )
     if given.ndim != 2 or given.dtype.kind not in "biuf" or min(given.shape, default=0) < 2:
         raise InputError(
             f"{_WHERE}: labels = {given.dtype} array of shape {given.shape}, must be rows of whole "

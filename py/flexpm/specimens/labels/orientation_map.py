@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,9 @@ from .given import MOST_PIXELS
 
 #: Steps from point to point differ by less [-].
 ON_GRID = 0.1
+
+#: A grid of which points fill less may be that of a map before it was thinned [-].
+_FILLED = 0.5
 
 
 @dataclass(frozen=True)
@@ -33,14 +37,41 @@ class Grid:
     """Where the points of a map lie.
 
     Attributes:
-        raster: Point of each pixel, the first row on top; -1 where there is none.
+        raster: Point of each pixel, the first row on top; from the number of points on: a point
+            that was not measured.
         sides: Width and height of a pixel [m].
-        steps: What is to be told of the steps; empty where they are those of the file's head.
+        shape: Number of columns, of the longest row, and of rows.
+        missing: Number of points that were not measured.
+        unlike_head: What differs from the file's head, by its name: ``steps``, ``grid``, ``cells``.
     """
 
     raster: IntArray
     sides: tuple[float, float]
-    steps: str = ""
+    shape: tuple[int, int]
+    missing: int
+    unlike_head: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def filled(self) -> float:
+        """Share of the points that were measured [-]."""
+        return 1.0 - self.missing / (int(self.raster.max()) + 1)
+
+
+@dataclass(frozen=True)
+class Head:
+    """What the head of a file says of the grid.
+
+    Attributes:
+        steps: Between columns and between rows [m]; None: it does not say.
+        hexagonal: Whether each second row begins half a step aside; None: it does not say.
+        shape: Number of columns, of the longest row, and of rows; None: it does not say.
+        keys: Names of both numbers in the file, for messages.
+    """
+
+    steps: tuple[float, float] | None
+    hexagonal: bool | None
+    shape: tuple[int, int] | None
+    keys: str
 
 
 @dataclass(frozen=True)
@@ -71,17 +102,13 @@ class OrientationMap:
         cls, phases: list[Phase], phase: IntArray, orientations: FloatArray, grid: Grid
     ) -> OrientationMap:
         """A map that gets a point without a phase wherever none was measured."""
-        gaps = grid.raster < 0
-        missing = int(np.count_nonzero(gaps))
-        whole = grid.raster.copy()
-        whole[gaps] = len(phase) + np.arange(missing)
-        none = np.tile([0.0, 0.0, 0.0, 1.0], (missing, 1))
+        none = np.tile([0.0, 0.0, 0.0, 1.0], (grid.missing, 1))
         return cls(
             phases,
-            np.append(phase, np.full(missing, -1)),
+            np.append(phase, np.full(grid.missing, -1)),
             np.vstack((orientations, none)),
-            replace(grid, raster=whole),
-            missing,
+            grid,
+            grid.missing,
         )
 
 
@@ -109,6 +136,23 @@ def _steps_of(x: FloatArray, y: FloatArray) -> tuple[float, float] | None:
             return None
         steps.append(float(np.ptp(way)) / number)
     return (2.0 * steps[0] if rough < np.median(along) else steps[0]), steps[1]
+
+
+def _unlike(steps: tuple[float, float], hexagonal: bool, head: Head) -> dict[str, str]:
+    """What of a grid differs from the head: its kind, or its steps [m]."""
+    found = {}
+    kinds = {True: "hexagonal", False: "square"}
+    same = head.steps is not None and np.allclose(steps, head.steps, rtol=1e-3, atol=0.0)
+    if head.hexagonal is not None and hexagonal is not head.hexagonal:
+        told = kinds[head.hexagonal]
+        found["grid"] = f"{kinds[hexagonal]} by the points, not {told} as in the head"
+    if not same:
+        own, given = (
+            " x ".join(f"{1e6 * step:g}" for step in one or ()) for one in (steps, head.steps)
+        )
+        other = f"not {given} um as in the head" if given else "none in the head"
+        found["steps"] = f"{own} um by the points, {other}"
+    return found
 
 
 class MapText:
@@ -146,6 +190,16 @@ class MapText:
         if not math.isfinite(value):
             raise self.refused(f"{what} = {quoted(text)}, must be a number; correct it", line)
         return value
+
+    def count(self, what: str, text: str, line: int) -> int:
+        """A number of columns, rows or layers; 0 where the head leaves it open."""
+        value = self.number(what, text, line)
+        if not 0 <= value <= MOST_PIXELS or value != int(value):
+            raise self.refused(
+                f"{what} = {quoted(text)}, must be a whole number up to {MOST_PIXELS}; correct it",
+                line,
+            )
+        return int(value)
 
     def step(self, what: str, text: str, line: int) -> float:
         """A step of the grid in micrometres, as metres."""
@@ -217,36 +271,66 @@ class MapText:
             )
         return columns, rows
 
-    def grid(
-        self, x: FloatArray, y: FloatArray, steps: tuple[float, float] | None, hexagonal: bool
-    ) -> Grid:
-        """Where points lie, by the steps of the head or, if these do not fit, by their own.
+    def grid(self, x: FloatArray, y: FloatArray, head: Head) -> Grid:
+        """Grid of the points, by the steps of the head or, if these do not fit, by their own.
 
         Args:
             x: To the right [um].
             y: Downwards [um].
-            steps: Between columns and between rows, by the head [m]; None: it does not say.
-            hexagonal: Whether each second row begins half a step aside, by the head.
+            head: What the head says of the grid.
 
         Raises:
-            InputError: for points that are on no grid, or twice at one place.
+            InputError: for points that are on no grid, twice at one position, or fewer columns or
+                rows than the head says.
         """
-        try:
-            if steps is None:
-                raise self.refused("steps are missing, must be in the head; complete it")
-            return self._raster(x, y, steps, hexagonal)
-        except InputError as error:
-            own = _steps_of(x, y)
-            if own is None or not 1e-3 <= min(own) <= max(own) <= 1e6:
-                raise
-            metres = (1e-6 * own[0], 1e-6 * own[1])
+        steps, reason = (
+            head.steps,
+            self.refused("steps are missing, must be in the head; complete it"),
+        )
+        found = None
+        if steps is not None:
+            told = head.hexagonal
             try:
-                found = self._raster(x, y, metres, is_hexagonal(x, metres[0]))
-            except InputError:
-                raise error from None
-        head = " x ".join(f"{1e6 * step:g}" for step in steps or ())
-        other = f"not {head} um as in the head" if head else "none in the head"
-        return replace(found, steps=f"{own[0]:g} x {own[1]:g} um by the points, {other}")
+                found = self._raster(
+                    x, y, steps, is_hexagonal(x, steps[0]) if told is None else told
+                )
+            except InputError as error:
+                reason = error
+        if found is None or found.filled < _FILLED:  # each second point of a thinned map is on it
+            own = _steps_of(x, y)
+            if own is not None and 1e-3 <= min(own) <= max(own) <= 1e6:
+                metres = (1e-6 * own[0], 1e-6 * own[1])
+                hexagonal = is_hexagonal(x, metres[0])
+                with contextlib.suppress(InputError):
+                    other = self._raster(x, y, metres, hexagonal)
+                    if found is None or other.filled > found.filled:
+                        found = replace(other, unlike_head=_unlike(metres, hexagonal, head))
+                        steps = metres
+        if found is None or steps is None:
+            raise reason
+        return self._counted(found, steps, head)
+
+    def _counted(self, found: Grid, steps: tuple[float, float], head: Head) -> Grid:
+        """Compare the number of columns and rows with that of the head.
+
+        A map that was thinned has fewer of both and still extends as far.
+        """
+        if head.shape is None or head.shape == found.shape:
+            return found
+        shown, asked = (" x ".join(map(str, shape)) for shape in (found.shape, head.shape))
+        thinned = head.steps is not None and all(
+            abs(count * step - asked_count * asked_step) < (1.0 - ON_GRID) * step
+            for count, step, asked_count, asked_step in zip(
+                found.shape, steps, head.shape, head.steps, strict=True
+            )
+        )
+        if not thinned:
+            raise self.refused(
+                f"{head.keys} = {asked} points, {shown} are there; export the whole map, or "
+                "correct the head if the map was cut out of a larger one"
+            )
+        told = f"{shown} by the points, not {asked} as in the head"
+        return replace(found, unlike_head=found.unlike_head | {"cells": told})
 
     def _raster(
         self, x: FloatArray, y: FloatArray, steps: tuple[float, float], hexagonal: bool
@@ -257,19 +341,29 @@ class MapText:
         half a step aside, and has its six neighbours. What is left at both ends goes to the last
         point.
         """
-        if not hexagonal:
-            columns, rows = self._places(x, y, steps, np.zeros(2))
-            raster = np.full((rows.max() + 1, columns.max() + 1), -1)
-            raster[rows, columns] = np.arange(len(x))
-            return Grid(raster, steps)
-        near = np.abs(y - y.min()) < 0.5e6 * steps[1]
-        late = near.any() and x[near].min() - x.min() > 0.25e6 * steps[0]
-        shift = np.array([0.5, 0.0]) if late else np.array([0.0, 0.5])
+        shift = np.zeros(2)
+        if hexagonal:
+            near = np.abs(y - y.min()) < 0.5e6 * steps[1]
+            late = near.any() and x[near].min() - x.min() > 0.25e6 * steps[0]
+            shift = np.array([0.5, 0.0]) if late else np.array([0.0, 0.5])
         columns, rows = self._places(x, y, steps, shift)
-        places = 2 * columns + (rows % 2 == (0 if late else 1))
-        raster = np.full((rows.max() + 1, places.max() + 2), -1)
-        for beside in (0, 1):
-            raster[rows, places + beside] = np.arange(len(x))
-        for end, inner in ((0, 1), (-1, -2)):
-            raster[:, end] = np.where(raster[:, end] < 0, raster[:, inner], raster[:, end])
-        return Grid(raster, (0.5 * steps[0], steps[1]))
+        raster = np.full((rows.max() + 1, columns.max() + 1), -1)
+        raster[rows, columns] = np.arange(len(x))
+        # rows that begin half a step later may have a point less
+        there = np.ones(raster.shape, dtype=bool)
+        for odd in (0, 1) if hexagonal else ():
+            there[odd::2, -1] = columns[rows % 2 == odd].max(initial=0) == columns.max()
+        gaps = (raster < 0) & there
+        raster[gaps] = len(x) + np.arange(np.count_nonzero(gaps))
+        shape, missing = (raster.shape[1], raster.shape[0]), int(np.count_nonzero(gaps))
+        if not hexagonal:
+            return Grid(raster, steps, shape, missing)
+        pixels = np.full((shape[1], 2 * shape[0] + 1), -1)
+        for odd in (0, 1):
+            first = int(2.0 * shift[odd])
+            pixels[odd::2, first : first + 2 * shape[0]] = np.repeat(raster[odd::2], 2, axis=1)
+        pixels = pixels[:, (pixels >= 0).any(axis=0)]
+        for end, step in ((0, 1), (-1, -1)):
+            inner = end + step
+            pixels[:, end] = np.where(pixels[:, end] < 0, pixels[:, inner], pixels[:, end])
+        return Grid(pixels, (0.5 * steps[0], steps[1]), shape, missing)

@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import re
 import struct
+import sys
 import tokenize
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,7 +22,7 @@ from ...errors import InputError
 from ...files import Table, load_toml
 from ...require import quoted, require_text
 from . import tesr
-from .given import MOST_PIXELS, whole_labels
+from .given import MOST_PIXELS, NO_VOLUMES, whole_labels
 
 if TYPE_CHECKING:
     from PIL.Image import Image as ImageFile
@@ -31,6 +34,8 @@ _BROKEN = (
     *(OSError, EOFError, ValueError, SyntaxError, TypeError, LookupError, AttributeError),
     *(OverflowError, struct.error, tokenize.TokenError),
 )
+#: Longest head of an array, and most that is read of what a library complains about [byte].
+_LONGEST = 10_000
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
@@ -63,17 +68,42 @@ def read(path: Path) -> Picture:
         return Picture(labels, has_voids=bool((labels == 0).any()))
     from PIL import Image
 
-    try:
-        with warnings.catch_warnings():  # large images are refused below, broken ones by errors
-            warnings.simplefilter("ignore")
+    found, reason = None, ""
+    with _complaints() as complaints, warnings.catch_warnings():
+        # large images are refused below, broken ones by errors
+        warnings.simplefilter("ignore")
+        try:
             with Image.open(path, formats=("PNG", "TIFF")) as image:
-                return _from_open(image)
-    except InputError:  # a ValueError, too
-        raise
-    except (*_BROKEN, Image.DecompressionBombError) as error:
+                found = _from_open(image)
+        except InputError:  # a ValueError, too
+            raise
+        except (*_BROKEN, Image.DecompressionBombError) as error:
+            reason = _short(error)
+    reason = complaints[0] if complaints else reason
+    if found is None or reason:
         raise InputError(
-            f"image = {quoted(str(path))}, must be a PNG, TIFF, NPY or TESR file: {_short(error)}"
-        ) from None
+            f"image = {quoted(str(path))}, must be a PNG, TIFF, NPY or TESR file: {reason}; give "
+            "a whole one"
+        )
+    return found
+
+
+@contextlib.contextmanager
+def _complaints() -> Iterator[list[str]]:
+    """Collect the lines that libraries in C write to standard error, of a broken TIFF."""
+    lines: list[str] = []
+    kept, taken = os.dup(2), os.memfd_create("complaints")
+    try:
+        if sys.stderr is not None:
+            sys.stderr.flush()
+        os.dup2(taken, 2)
+        yield lines
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        with os.fdopen(taken, "rb") as written:
+            written.seek(0)
+            lines += written.read(_LONGEST).decode(errors="replace").splitlines()
 
 
 def _from_open(image: ImageFile) -> Picture:
@@ -89,7 +119,7 @@ def _from_open(image: ImageFile) -> Picture:
         )
     pages = getattr(image, "n_frames", 1)
     if pages > 1:
-        raise InputError(f"image = {pages} pages, must be one; save the page that is meant")
+        raise InputError(f"image = {pages} pages, must be one: {NO_VOLUMES}; save one slice")
     return _from_image(image.mode, np.asarray(image))
 
 
@@ -100,6 +130,11 @@ def _short(error: Exception) -> str:
 def _from_array(path: Path) -> Picture:
     """An array, of which only the head is read before its size is known."""
     try:
+        with path.open("rb") as file:
+            magic, version, length = struct.unpack("<6sHI", file.read(12).ljust(12, b"\0"))
+        # numpy would make room for all that a head of formats 2 and 3 claims
+        if magic == b"\x93NUMPY" and version & 0xFF >= 2 and length > _LONGEST:
+            raise ValueError(f"head = {length} bytes, must be <= {_LONGEST}")
         found = np.load(path, mmap_mode="r", allow_pickle=False)
     except _BROKEN as error:
         raise InputError(
@@ -112,7 +147,10 @@ def _from_array(path: Path) -> Picture:
             f"{MOST_PIXELS}"
         )
     if found.ndim == 3:
-        raise InputError(f"image = array of shape {found.shape}, must have one page of labels")
+        raise InputError(
+            f"image = array of shape {found.shape}, must be rows of one image: {NO_VOLUMES}; save "
+            "one slice"
+        )
     return Picture(whole_labels(found))
 
 

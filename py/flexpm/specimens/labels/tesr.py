@@ -14,7 +14,7 @@ from ...arrays import IntArray
 from ...files import read_bytes
 from ...require import quoted
 from ..files.neper_text import Words
-from .given import MOST_PIXELS
+from .given import MOST_PIXELS, NO_VOLUMES
 
 #: Sides of a pixel differ by less [-].
 _SQUARE = 1e-6
@@ -42,7 +42,7 @@ def read(path: Path) -> IntArray:
     dimension = words.whole("dimension", 1, 3)
     if dimension != 2:
         raise words.refused(
-            f"dimension = {dimension}, must be 2: stacks are not read; cut a slice by Neper"
+            f"dimension = {dimension}, must be 2: {NO_VOLUMES}; cut a slice by Neper"
         )
     columns, rows = (words.whole(f"size {key}", 2, MOST_PIXELS) for key in "xy")
     if columns * rows > MOST_PIXELS:
@@ -50,9 +50,18 @@ def read(path: Path) -> IntArray:
     width, height = (words.number(f"size of a pixel {key}") for key in "xy")
     if not abs(width - height) <= _SQUARE * abs(width):
         raise words.refused(f"pixel = {width:g} x {height:g}, must be square; resample it by Neper")
-    if words.skip_to("**data", "***end") == "***end":
+    most, section = _LARGEST_LABEL, words.skip_to("**cell", "**data", "***end")
+    if section == "**cell":
+        most = words.whole("cells", 1, _LARGEST_LABEL)
+        section = words.skip_to("**data", "***end")
+    if section == "***end":
         raise words.refused("**data is missing, must tell the cell of each pixel; find cells first")
     labels = _cells(words, kind or words.word("data format"), columns * rows, path.parent)
+    if labels.max() > most:
+        raise words.refused(
+            f"cell of a pixel = {labels.max()}, must be <= {most}, the number of cells in **cell; "
+            "correct one of them"
+        )
     return labels.reshape(rows, columns)[::-1].copy()
 
 
@@ -62,8 +71,8 @@ def _cells(words: Words, kind: str, number: int, folder: Path) -> IntArray:
         raise words.refused(
             f"data format = {quoted(kind)}, must be ascii or one of {', '.join(_BINARY)}"
         )
-    binary = words.binary
-    if words.section == "*file":
+    binary, is_file = words.binary, words.section == "*file"
+    if is_file:
         words.expect("*file")
         path = folder / words.word("file of the data")
         try:
@@ -78,11 +87,20 @@ def _cells(words: Words, kind: str, number: int, folder: Path) -> IntArray:
             words = Words(path, "data of a tesr")
     if kind == "ascii":
         whole = [words.whole("cell of a pixel", 0, _LARGEST_LABEL) for _ in range(number)]
+        if not words.is_over and not words.section:
+            raise words.refused(
+                f"data = more than {number} pixels, must be {number} by the size in **general; "
+                "correct one of them"
+            )
         return np.array(whole)
     form = np.dtype(_BINARY[kind])
     there = len(binary) // form.itemsize
-    if there < number:
-        raise words.refused(f"data = {there} pixels, must be {number}; complete it")
+    rest = binary[number * form.itemsize :]
+    if there < number or (rest if is_file else not rest.lstrip().startswith(b"*")):
+        told = f"{there} pixels" if there < number or is_file else f"more than {number} pixels"
+        raise words.refused(
+            f"data = {told}, must be {number} by the size in **general; give the whole file"
+        )
     labels = np.frombuffer(binary, form, number).astype(int)
     if labels.min() < 0:
         raise words.refused(f"cell of a pixel = {labels.min()}, must be >= 0; correct it")

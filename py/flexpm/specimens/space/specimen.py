@@ -23,11 +23,12 @@ from ..kernel_input import call, checksum, mineral_indices
 from . import cells as of_spheres
 from . import file
 from .own_cells import OwnCells
+from .plane_only import PlaneOnly
 from .spec import SHORT_EDGE, SIZES, SolidSpec
 
 
 @dataclass(frozen=True, eq=False)
-class SolidSpecimen:
+class SolidSpecimen(PlaneOnly):
     """Bonded polyhedral grains that fill a box, a cylinder, a disc or half of one.
 
     Make it by ``Specimen.box``, ``cylinder``, ``solid_disc``, ``solid_half_disc``,
@@ -214,6 +215,10 @@ class SolidSpecimen:
     def equal_diameter(self) -> float:
         """Diameter of a ball of the specimen's volume [m]."""
         return float(np.cbrt(6.0 / math.pi * self.spec.volume))
+
+    def joint_lines(self) -> list[FloatArray]:
+        """None: a solid has no joints."""
+        return []
 
     def joint_bends(self) -> dict[str, float]:
         """None: a solid has no joints."""
