@@ -86,7 +86,7 @@ def test_threads_and_a_stop_change_no_bit(block, model, pressure, tmp_path, monk
             "height = 0.009 m, must be > 0.012 m: a bridge between two notches has at least 4 mean",
         ),
         (
-            ["--depth", "0.008", "--width", "0.02"],
+            ["--depth", "0.008", "--width", "0.02", "--notch", "0.003"],
             "default distance = 0.008 m, must be > 0.009: pairs of notches lie at least 3",
         ),
         (

@@ -231,7 +231,7 @@ def test_rasters_that_are_none_in_the_plane_are_refused(tmp_path, capsys):
     for text, words in (
         (good.replace("   2\n", "   3\n"), "dimension = 3, must be 2: volumes are not read, Neper"),
         (good.replace("0.01 0.01", "0.01 0.02"), "pixel = 0.01 x 0.02, must be square"),
-        (good.replace("ascii", "binary32"), "pixels, must be 64; complete it"),
+        (good.replace("ascii", "binary32"), "pixels, must be 64 by the size in"),
         (good.replace("ascii", "binary7"), "data format = 'binary7', must be ascii or one of"),
         (good.replace("ascii", "ascii *file a.raw"), "a.raw', must be a file; put it there"),
         (good.replace("**data", "**dada"), "**data is missing, must tell the cell of each pixel"),

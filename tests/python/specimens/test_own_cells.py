@@ -133,8 +133,8 @@ def test_pieces_of_a_sawn_grain_know_it(tmp_path):
         places = sawn.centres[sawn.grains == grain]
         assert np.hypot(*(places[1] - places[0])) < 4e-3
     cut = sawn.with_joints({"a": [(-0.001, 0.0103), (0.021, 0.0121)]})
-    areas = np.bincount(sawn.grains, sawn.tessellation.cell_areas)
-    np.testing.assert_allclose(np.bincount(cut.grains, cut.tessellation.cell_areas), areas)
+    np.testing.assert_array_equal(cut.grains[: len(sawn.grains)], sawn.grains)
+    assert len(cut.grains) > len(sawn.grains) and {*cut.grains} == {*sawn.grains}
     for specimen in (sawn, cut):
         specimen.save(tmp_path / "it.json")
         again = Specimen.load(tmp_path / "it.json")
