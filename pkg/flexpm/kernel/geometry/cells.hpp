@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/core/vector.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace flexpm {
@@ -30,15 +31,19 @@ struct Tessellation {
     std::vector<Point> vertices;  ///< [m]
     /// Size cells + 1: cell i owns cell_vertices[cell_offsets[i] .. cell_offsets[i + 1]).
     std::vector<int> cell_offsets;
-    std::vector<int> cell_vertices;        ///< vertex indices, counter-clockwise, cell after cell
-    std::vector<int> disc_of_cell;         ///< index of the generating disc
-    std::vector<SharedEdge> shared_edges;  ///< sorted by (cell_a, cell_b)
+    std::vector<int> cell_vertices;  ///< vertex indices, counter-clockwise, cell after cell
+    std::vector<int> disc_of_cell;   ///< index of the generating disc
+    /// Per cell: 1 for the whole Laguerre cell of its disc, whose short edges may be collapsed
+    /// (D7); 0 for a cell that was given, sawn, cut, merged or split. Empty: all 1.
+    std::vector<std::uint8_t> laguerre;
+    std::vector<SharedEdge> shared_edges;      ///< sorted by (cell_a, cell_b)
     std::vector<BoundaryEdge> boundary_edges;  ///< sorted by cell
     std::vector<int> merged_vertices;          ///< ascending; ends of collapsed edges
     std::vector<int> hidden_discs;             ///< discs whose cell is empty
     int uncollapsed_shared_edges = 0;          ///< shared edges before short edges were collapsed
 
     int cells() const { return static_cast<int>(disc_of_cell.size()); }
+    bool is_laguerre(int cell) const { return laguerre.empty() || laguerre[cell] != 0; }
     int vertices_of(int cell) const { return cell_offsets[cell + 1] - cell_offsets[cell]; }
 };
 

@@ -128,7 +128,7 @@ void CellIndex::split(int cell, Loop first, Loop second)
         at.erase(std::find(at.begin(), at.end(), cell));
     }
     cells.cells[cell] = std::move(first);
-    cells.whole[cell] = 0;
+    cells.reshape(cell);
     cells.add_cell(std::move(second), cells.origin[cell], false);
     add(cell);
     add(static_cast<int>(cells.cells.size()) - 1);
@@ -180,6 +180,7 @@ void CellIndex::move(int vertex, Point place)
 {
     cells.vertices[vertex] = place;
     for (int cell : around[vertex]) {
+        cells.laguerre[cell] = 0;  // which may keep its disc
         take_out_of_squares(cell);
         place_in_squares(cell);
         const Loop& loop = cells.cells[cell];

@@ -402,6 +402,11 @@ Tiling cells_of_file(const StoredCells& stored)
             "must be one for each of " + std::to_string(stored.cells.size())
                 + " cells, and at least one; save the specimen again");
     }
+    if (!stored.laguerre.empty() && stored.laguerre.size() != stored.cells.size()) {
+        refuse("laguerre of stored cells", static_cast<double>(stored.laguerre.size()), "",
+            "must be one for each of " + std::to_string(stored.cells.size())
+                + " cells; save the specimen again");
+    }
     PlanarCells cells;
     cells.vertices = stored.vertices;
     cells.sides = stored.sides;
@@ -417,6 +422,7 @@ Tiling cells_of_file(const StoredCells& stored)
             refuse("stored cell " + std::to_string(c) + ": corners", "clockwise",
                 "must run counter-clockwise; save the specimen again");
         cells.add_cell(stored.cells[c], static_cast<int>(c), true);
+        if (!stored.laguerre.empty()) cells.laguerre[c] = stored.laguerre[c];
     }
     check_edges(cells);
     return make_tiling(cells, stored.discs);

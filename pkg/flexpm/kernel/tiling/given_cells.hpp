@@ -29,11 +29,12 @@ GivenCells cells_of_polygons(const std::vector<std::vector<Point>>& polygons, bo
 
 /// Cells as a file holds them.
 struct StoredCells {
-    std::vector<Point> vertices;       ///< [m]
-    std::vector<Loop> cells;           ///< counter-clockwise
-    std::map<VertexPair, int> sides;   ///< of boundary edges
-    std::map<VertexPair, int> joints;  ///< of edges between cells that have one
-    std::vector<Disc> discs;           ///< per cell
+    std::vector<Point> vertices;         ///< [m]
+    std::vector<Loop> cells;             ///< counter-clockwise
+    std::map<VertexPair, int> sides;     ///< of boundary edges
+    std::map<VertexPair, int> joints;    ///< of edges between cells that have one
+    std::vector<Disc> discs;             ///< per cell
+    std::vector<std::uint8_t> laguerre;  ///< per cell, as in Tessellation; empty: all 1
 };
 
 /// The tiling that was stored: same cells, same order.

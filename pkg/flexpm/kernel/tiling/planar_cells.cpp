@@ -113,6 +113,7 @@ PlanarCells planar_cells(const Tessellation& t)
     for (int c = 0; c < t.cells(); ++c) {
         const auto first = t.cell_vertices.begin() + t.cell_offsets[c];
         cells.add_cell({ first, first + t.vertices_of(c) }, c, true);
+        cells.laguerre[c] = t.is_laguerre(c);
     }
     for (const BoundaryEdge& e : t.boundary_edges)
         cells.sides[undirected(e.vertex_0, e.vertex_1)] = e.side;
@@ -129,6 +130,7 @@ Tiling make_tiling(const PlanarCells& cells, const std::vector<Disc>& discs)
         if (cells.cells[c].empty()) continue;
         loops.push_back(cells.cells[c]);
         tiling.origin.push_back(cells.origin[c]);
+        tiling.cells.laguerre.push_back(cells.laguerre[c]);
         tiling.discs.push_back(cells.whole[c] ? discs[cells.origin[c]]
                                               : disc_of_area(polygon_of(cells, cells.cells[c])));
     }

@@ -31,18 +31,23 @@ constexpr double least_angle = 0.087266462599716474;
 
 struct PlanarCells {
     std::vector<Point> vertices;
-    std::vector<Loop> cells;           ///< an empty one has been merged with another
-    std::vector<int> origin;           ///< per cell: the grain that it is, or is a piece of
-    std::vector<std::uint8_t> whole;   ///< per cell: 1 keeps the disc of its grain
-    std::map<VertexPair, int> sides;   ///< side of the outline of boundary edges
-    std::map<VertexPair, int> joints;  ///< joint of edges between cells; others have none
+    std::vector<Loop> cells;             ///< an empty one has been merged with another
+    std::vector<int> origin;             ///< per cell: the grain that it is, or is a piece of
+    std::vector<std::uint8_t> whole;     ///< per cell: 1 keeps the disc of its grain
+    std::vector<std::uint8_t> laguerre;  ///< per cell, as in Tessellation; never empty
+    std::map<VertexPair, int> sides;     ///< side of the outline of boundary edges
+    std::map<VertexPair, int> joints;    ///< joint of edges between cells; others have none
 
     void add_cell(Loop loop, int from, bool is_whole)
     {
         cells.push_back(std::move(loop));
         origin.push_back(from);
         whole.push_back(is_whole);
+        laguerre.push_back(is_whole);
     }
+
+    /// Note that a cell has another shape than its disc gives it.
+    void reshape(int cell) { whole[cell] = laguerre[cell] = 0; }
 };
 
 /// Cell on the left of each directed edge.

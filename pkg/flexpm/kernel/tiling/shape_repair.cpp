@@ -84,7 +84,7 @@ bool merge_cell(PlanarCells& cells, EdgeOwners& owners, int cell)
         owners.add(loop, other);
         cells.cells[cell].clear();
         cells.cells[other] = std::move(loop);
-        cells.whole[other] = 0;
+        cells.reshape(other);
         return true;
     }
     return false;
@@ -204,7 +204,7 @@ void straighten_edges(PlanarCells& cells)
         if (shorter.size() < 2) continue;
         for (int i : { 0, 1 }) {
             cells.cells[around[i]] = shorter[i];
-            cells.whole[around[i]] = 0;
+            cells.reshape(around[i]);
         }
     }
 }

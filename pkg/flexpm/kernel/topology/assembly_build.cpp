@@ -259,6 +259,14 @@ void crack_from_start(Contacts& contacts, int contact)
         take_strength(contacts, contact, p);
 }
 
+/// Eq. 5 holds for whole Laguerre cells, whose edges stand square to the line of the centres.
+bool has_edge_normal(const Tessellation& t, const AssemblyOptions& options, int edge)
+{
+    if (!options.edge_normal.empty()) return options.edge_normal[edge] != 0;
+    const SharedEdge& e = t.shared_edges[edge];
+    return !t.is_laguerre(e.cell_a) || !t.is_laguerre(e.cell_b);
+}
+
 void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
     const std::vector<MeshedGrain>& grains, const AssemblyOptions& options)
 {
@@ -273,9 +281,7 @@ void bond(Assembly& a, const Tessellation& t, const std::vector<Disc>& discs,
         }
         const int edge = std::min(c, a.contacts.count - 1);
         const int joint = joint_of(options, edge);
-        const bool of_edge =
-            joint >= 0 || (!options.edge_normal.empty() && options.edge_normal[edge] != 0);
-        fill_contact(a, c, e, grains, points, of_edge);
+        fill_contact(a, c, e, grains, points, joint >= 0 || has_edge_normal(t, options, edge));
         if (c >= a.contacts.count) continue;
         a.contacts.pairs.push_back({ e.cell_a, e.cell_b });
         a.contacts.id.push_back(a.contacts.next_id++);

@@ -21,9 +21,10 @@ struct AssemblyOptions {
     std::vector<int> parent;          ///< per cell: its grain of the rock; empty: itself
     std::vector<int>
         edge_law;  ///< per shared edge, into `laws`; empty: by the materials of its cells
-    std::vector<std::uint8_t> edge_normal;  ///< per shared edge: 1 takes the normal of the edge,
-                                            ///< 0 that between the centres; empty: all 0
-    std::vector<ContactMaterial> laws;      ///< per pair of materials: laws[i * elastic.size() + j]
+    /// Per shared edge: 1 takes the normal of the edge, 0 that between the centres. Empty: between
+    /// two whole Laguerre cells that between the centres, else that of the edge. Deviation D104.
+    std::vector<std::uint8_t> edge_normal;
+    std::vector<ContactMaterial> laws;  ///< per pair of materials: laws[i * elastic.size() + j]
     std::vector<int>
         edge_joint;  ///< per shared edge, into `joints`, -1: none; empty: all -1. An edge with a
                      ///< joint takes its law and the normal of the edge
