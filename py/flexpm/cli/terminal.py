@@ -8,6 +8,8 @@ import errno
 import io
 import os
 import sys
+import threading
+import time
 from types import TracebackType
 from typing import TYPE_CHECKING, NoReturn
 
@@ -69,8 +71,16 @@ def duration(seconds: float) -> str:
     return f"{float(f'{seconds:.2g}'):g} s"
 
 
+#: Wall time between two lines of progress where stderr is no terminal [s].
+LINES_EVERY = 30.0
+
+
 class Progress:
-    """Progress bar on stderr with rate and remaining time; silent unless stderr is a terminal."""
+    """Progress on stderr: a bar on a terminal, else a line each half minute.
+
+    A bar has the rate and the remaining time. Lines come from a thread, since what reports progress
+    may do so seldom: a study does when a run has ended.
+    """
 
     _FORMAT = (
         "{desc} {percentage:3.0f} % |{bar}| {n:.0f}/{total:.0f} "
@@ -81,12 +91,16 @@ class Progress:
         self._bar: tqdm[NoReturn] | None = None
         self._unit = f" {unit}"
         self._shown = sys.stderr.isatty() and not quiet
+        self._lined = not (self._shown or quiet)
+        self._last: tuple[float, float, str] | None = None
+        self._begin, self._over = time.monotonic(), threading.Event()
 
     def __call__(self, done: float, expected: float, text: str = "") -> None:
         """Show that `done` of about `expected` are done; `text` says what is going on.
 
         Fewer done than before mean that something new has begun.
         """
+        self._last = (done, expected, text)
         if not self._shown:
             return
         bar = self._bar
@@ -121,12 +135,31 @@ class Progress:
         return bar
 
     def close(self) -> None:
-        """Remove the bar from the terminal."""
+        """Remove the bar from the terminal: what it was of is over."""
+        self._last = None
         if self._bar is not None:
             self._bar.close()
             self._bar = None
 
+    def _lines(self) -> None:
+        """Write lines until the end."""
+        while not self._over.wait(LINES_EVERY):
+            with contextlib.suppress(OSError, ValueError):  # a closed stream
+                print(printable(self._line()), file=sys.stderr, flush=True)
+
+    def _line(self) -> str:
+        """The time since the start, the amount that is done, and of about how much, in a line."""
+        since = duration(time.monotonic() - self._begin)
+        if self._last is None:
+            return f"progress after {since}: working"
+        done, expected, text = self._last
+        share = f", {100.0 * done / expected:.0f} %" if 0.0 <= done <= expected > 0.0 else ""
+        amount = f"{done:.0f} of about {max(done, expected):.0f}{self._unit}{share}"
+        return f"progress after {since}: {text}, {amount}"
+
     def __enter__(self) -> Progress:
+        if self._lined:
+            threading.Thread(target=self._lines, daemon=True).start()
         return self
 
     def __exit__(
@@ -135,4 +168,5 @@ class Progress:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        self._over.set()
         self.close()

@@ -86,6 +86,8 @@ class Readings(Protocol):
     @property
     def stress(self) -> float: ...  # noqa: D102
     @property
+    def differential(self) -> float: ...  # noqa: D102
+    @property
     def strain(self) -> float: ...  # noqa: D102
     @property
     def peak(self) -> float: ...  # noqa: D102

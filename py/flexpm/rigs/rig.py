@@ -385,7 +385,9 @@ class TestRig(RigReadings):
         return self.diverged or self._readings.state != TestState.running
 
     def _standing(self) -> str:
-        return f"peak {self._readings.peak * 1e-6:5.1f} MPa"
+        peak, stress = self._readings.peak, self._readings.differential
+        part = f", now {100.0 * stress / peak:3.0f} % of it" if peak > 0.0 else ""
+        return f"peak {peak * 1e-6:5.1f} MPa{part}"
 
 
 def _span(plan: Schedule) -> Span:

@@ -75,6 +75,11 @@ class _State:
     work: float = 0.0  #: of the ends [J]
     rows: list[list[float]] = field(default_factory=list)  #: the record, as far as it was saved
 
+    @property
+    def differential(self) -> float:
+        """Stress of the last row above the confinement [Pa]."""
+        return self.stress - (self.confinement or 0.0)
+
 
 class SphereRig(TestRig):
     """Plates, grips and pressure on spheres, looked at every so many steps."""

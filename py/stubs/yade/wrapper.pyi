@@ -271,6 +271,7 @@ class AxialRecorder(Engine):
     maxStrain: float
     fromNow: bool
     stress: float
+    differential: float
     strain: float
     peak: float
     state: EnumClass_TestState

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lines of progress where stderr is no terminal: of all commands that take long."""
+
+from __future__ import annotations
+
+import re
+import time
+
+import pytest
+
+from flexpm.cli import main as cli
+from flexpm.cli import terminal
+
+FLAT = ["--width", "0.016", "--height", "0.032", "--thickness", "0.01"]
+#: A line of a loading: steps so far, and the stress as part of the peak.
+STEPS = re.compile(
+    r"progress after [\d.]+ \w+: (?P<text>.*peak +[\d.]+ MPa, now +-?\d+ % of it), "
+    r"(?P<done>\d+) of about (?P<all>\d+) steps, \d+ %"
+)
+
+
+@pytest.fixture(autouse=True)
+def _soon(monkeypatch):
+    monkeypatch.setattr(terminal, "LINES_EVERY", 0.02)
+
+
+def told(capsys):
+    return [one for one in capsys.readouterr().err.splitlines() if one.startswith("progress")]
+
+
+@pytest.mark.parametrize(
+    ("command", "start"),
+    [(["run", "tension"], "peak"), (["compare", "uniaxial", "--rate", "8"], "1/2 flexible: peak")],
+)
+def test_a_loading_tells_its_steps_and_its_part_of_the_peak(command, start, tmp_path, capsys):
+    assert cli.main([*command, *FLAT, "--no-report", "--out", str(tmp_path)]) == 0
+    found = [match for one in told(capsys) if (match := STEPS.fullmatch(one))]
+    assert found and any(one["text"].startswith(start) for one in found)
+    done = [int(one["done"]) for one in found if one["text"].startswith(start)]
+    assert done == sorted(done) and all(int(one["done"]) <= int(one["all"]) for one in found)
+
+
+def test_a_packing_tells_its_steps(tmp_path, capsys):
+    assert cli.main(["specimen", "rectangle", *FLAT, "--out", str(tmp_path)]) == 0
+    assert any(": packing, " in one for one in told(capsys))
+
+
+def test_a_quiet_command_tells_none(tmp_path, capsys):
+    assert cli.main(["run", "tension", *FLAT, "--quiet", "--out", str(tmp_path)]) == 0
+    assert told(capsys) == []
+
+
+def test_what_reports_seldom_is_told_all_the_same(capsys):
+    with terminal.Progress(unit="sets") as progress:
+        time.sleep(0.05)
+        progress(3, 16, "calibrating")
+        time.sleep(0.07)
+    lines = told(capsys)
+    assert lines[0].endswith(": working")
+    assert sum(one.endswith(": calibrating, 3 of about 16 sets, 19 %") for one in lines) >= 2
+    time.sleep(0.05)
+    assert told(capsys) == []
