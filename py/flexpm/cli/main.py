@@ -233,11 +233,13 @@ def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options
 def report(folder: Path) -> None:
     """Make report.html in DIR again, the folder of a run, compare, study or calibrate.
 
-    It opens in any browser, without a network: inputs, results, curves, maps, warnings.
+    It opens in any browser, without a network: inputs, results, curves, maps, warnings. The page of
+    a run that is under way or was stopped shows what the run has reached.
     """
     from ..studies import pages
 
-    inputs.locked_folder(pages.require_results(folder))
+    if pages.has_ended(pages.require_results(folder)):
+        inputs.locked_folder(folder)
     terminal.say(f"  files  {pages.write(folder)}")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import yade
@@ -28,10 +29,10 @@ from ..rigs.wave_rig import WaveRig
 from ..runs.asked import write_report
 from ..runs.loading_rate import Loading
 from ..runs.loading_start import LoadingStart
-from ..runs.output import ROSE, Output
+from ..runs.output import RESULT, ROSE, Output
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Foresee, Runner
-from ..runs.written import about, write_files
+from ..runs.written import about, write_files, write_so_far
 from ..specimens.files import given
 from . import halving
 from .outcome import outcome
@@ -125,6 +126,8 @@ def _tested(
 
             rose_picture(folder / ROSE, specimen)
     rig = _rig_of(built, spec, runner)
+    if folder is not None and not (folder / RESULT).exists():  # else they are those of the end
+        runner.leave = partial(_leave, folder, rig, plan.spec)
     if folder is not None and output.frames:
         resumed_at = yade.O.iter if restore is not None else None
         rig.watch = FrameWriter(folder, output.frames, about(spec.to_json()), resumed_at)
@@ -134,6 +137,12 @@ def _tested(
         _STAGES[stage](rig, spec)
     rig.finish()
     return rig, outcome(rig, spec)
+
+
+def _leave(folder: Path, rig: TestRig, spec: RunSpec) -> None:
+    """Write the tables of a test that is under way, once there is a record."""
+    if not rig.diverged and len(rig.record):
+        write_so_far(folder, outcome(rig, spec))
 
 
 def _announce(

@@ -18,7 +18,7 @@ from . import core, doubts, measures, waves
 from .cracks import MODES, AnyCrack, cracks_csv, read_cracks
 from .emission import AnyEvent, EventRule, events_csv, find_events, frequencies, read_events
 from .record import Curve
-from .result_checks import require_sense
+from .result_checks import FINISHED, require_sense
 from .snapshot import Snapshot
 from .solids.state import SolidSnapshot
 
@@ -282,19 +282,21 @@ class Result(Shown):
         return content | {"warnings": self.warnings, "inputs": inputs}
 
     @classmethod
-    def read(cls, folder: Path | str) -> Result:
+    def read(cls, folder: Path | str, name: str = FINISHED) -> Result:
         """Read what a run has left: numbers, inputs, record and cracks; no final state.
 
         Args:
             folder: The run's, with result.json, curve.csv and cracks.csv.
+            name: File with the numbers: ``result.json``, or ``unfinished.json`` of a run that has
+                not ended.
 
         Raises:
             InputError: if a file cannot be read, or is not that of a run.
         """
         folder = Path(folder)
-        content = load_json(folder / "result.json", "result")
+        content = load_json(folder / name, "result")
         given = {key: value for key, value in content.items() if key in cls.__dataclass_fields__}
-        require_sense(folder / "result.json", given, fields(cls))
+        require_sense(folder / name, given, fields(cls))
         result = cls(**given)
         result.curve = Curve.read(folder / "curve.csv")
         result.cracks = read_cracks(folder / "cracks.csv")
@@ -302,8 +304,13 @@ class Result(Shown):
             result.emission = read_events(folder / "events.csv")
         return result
 
-    def write(self, folder: Path | str) -> None:
-        """Write result.json and the tables into `folder`, each whole or not at all."""
+    def write(self, folder: Path | str, name: str = FINISHED) -> None:
+        """Write the tables and then the numbers into `folder`, each file whole or not at all.
+
+        Args:
+            folder: It is made if it does not exist.
+            name: File of the numbers, see `read`.
+        """
         folder = output_folder(folder)
         write_text(folder / "curve.csv", self.curve.csv())
         write_text(folder / "cracks.csv", cracks_csv(self.cracks))
@@ -311,7 +318,7 @@ class Result(Shown):
             write_text(folder / "events.csv", events_csv(self.emission))
         if self.snapshot is not None:
             write_text(folder / "fragments.csv", self.snapshot.fragments.csv(_size(self.snapshot)))
-        write_text(folder / "result.json", json_text(self.as_dict()))
+        write_text(folder / name, json_text(self.as_dict()))
 
 
 def _size(snapshot: Snapshot | SolidSnapshot) -> str:

@@ -21,7 +21,12 @@ _NOT_NEGATIVE = (
     *("step_time", "confinement", "unbalanced_ratio", "end_mismatch", "energy_error"),
     *("contact_width", "notch_depth", "joint_bend", "peak_load", "vp", "vs", "b_value_error"),
 )
-STATUSES = ("ok", "no_peak", "not_quasistatic", "diverged", "unfinished")
+#: File with the numbers of a run that has ended.
+FINISHED = "result.json"
+#: File with the numbers of a run that has not ended, and its status; a script's own test writes
+#: that status into result.json.
+SO_FAR, UNFINISHED = "unfinished.json", "unfinished"
+STATUSES = ("ok", "no_peak", "not_quasistatic", "diverged", UNFINISHED)
 _KINDS: dict[str, tuple[type, ...]] = {
     "int": (int,),
     "float": (int, float),

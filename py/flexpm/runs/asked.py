@@ -20,6 +20,7 @@ from ..kinds.registry import options
 from ..materials.keys import JOINT_UNITS, UNITS
 from ..materials.material import Material, load, preset_names
 from ..materials.mixing import from_description
+from ..results.result_checks import FINISHED, SO_FAR
 from ..specimens.space.any_spec import SIZES, AnySpec, field_names, is_solid, spec_of
 from ..specimens.spec import GRAINS_FILE
 from .input_names import INPUT_UNITS, unused
@@ -155,9 +156,10 @@ def write_report(folder: Path, result: Result) -> Path:
 
     if is_own(result.inputs):
         return _write_own(folder, result)
-    with _refusing(folder / "result.json"):
+    ended = (folder / FINISHED).is_file()
+    with _refusing(folder / (FINISHED if ended else SO_FAR)):
         spec = RunSpec.from_json(result.inputs or {})
-    commands = [_AGAIN]
+    commands = [_AGAIN] if ended else []
     if line := command(spec):
         commands.append(("By all that was asked for:", line))
     return write_page(folder, result, told(spec), commands)

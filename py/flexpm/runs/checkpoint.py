@@ -36,7 +36,7 @@ from .run_spec import RunSpec
 INTERVAL = 30.0
 #: The same over the time that one takes beyond a second, if that is longer: of large specimens
 #: they are gigabytes.
-_PAUSE = 20.0
+PAUSE = 20.0
 _NAME = "checkpoint.json"
 #: YADE's plain binary archive: compressing it takes longer than writing it.
 _SCENE = "checkpoint-{step}.bin"
@@ -88,6 +88,7 @@ class Checkpoint:
 
     Attributes:
         position: How far the run has come.
+        interval: Wall time between two checkpoints [s].
         resumed_at: Step at which an earlier run was taken up, or None.
         told: What is saved beside: of a script's own test what it has called so far.
     """
@@ -105,7 +106,7 @@ class Checkpoint:
             BusyError: if another process uses the folder.
         """
         require_number("run: checkpoint_interval", interval, POSITIVE, "s")
-        self._folder, self._interval = folder, interval
+        self._folder, self.interval = folder, interval
         self._build, self._inputs = _build(spec), spec.to_json()
         self._saved, self._took = time.monotonic(), 0.0
         self._scene: Path | None = None
@@ -124,7 +125,7 @@ class Checkpoint:
     @property
     def due(self) -> bool:
         """Whether it is time to save."""
-        return time.monotonic() - self._saved > max(self._interval, _PAUSE * (self._took - 1.0))
+        return time.monotonic() - self._saved > max(self.interval, PAUSE * (self._took - 1.0))
 
     def restore(self) -> None:
         """Replace YADE's scene by the saved one.

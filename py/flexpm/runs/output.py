@@ -10,6 +10,7 @@ from pathlib import Path
 from ..errors import InputError
 from ..files import read_json
 from ..require import Bounds, require_one_of, require_whole
+from ..results.result_checks import FINISHED, SO_FAR
 from .run_spec import RunSpec
 
 #: Name of the picture of a fracture network.
@@ -19,10 +20,11 @@ FILMS = ("gif", "mp4")
 #: Frames of a film if no number is given; more than the most are a mistake.
 FILM_FRAMES, MOST_FRAMES = 40, 1000
 #: Name of the file with the numbers of a run.
-RESULT = "result.json"
+RESULT = FINISHED
 #: Files by which a folder is known, and what has left them.
 KINDS = {
     RESULT: "run",
+    SO_FAR: "run",
     "compare.csv": "compare",
     "means.csv": "packings",
     "table.csv": "study",

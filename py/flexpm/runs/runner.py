@@ -13,7 +13,7 @@ import yade
 from ..errors import SimulationError
 from ..progress import Progress
 from ..threads import for_scenes
-from .checkpoint import Checkpoint, Position
+from .checkpoint import PAUSE, Checkpoint, Position
 
 #: Name of YADE's scene in memory.
 _MARK = "flexpm"
@@ -65,6 +65,9 @@ class Runner:
             checkpoint.position = position
         self.position = checkpoint.position if checkpoint else position or Position()
         self.stages = 0
+        #: Writes the tables of a stage that is under way, beside its checkpoints.
+        self.leave: Callable[[], None] | None = None
+        self._left, self._took = time.perf_counter(), 0.0
         self._spans: list[float] = []
 
     @property
@@ -134,11 +137,14 @@ class Runner:
                 self._show(text())
                 if save and self._checkpoint is not None and self._checkpoint.due:
                     self.save()
+                if self._is_behind:
+                    self._leave()
         except Exception:
             raise
         except BaseException:  # an interruption, which Python lets through between two steps
             if save:
                 self.save()
+            self._leave()
             raise
 
     def reload(self) -> None:
@@ -158,6 +164,23 @@ class Runner:
         self.position.step_time = self.step_time
         if self._checkpoint is not None:
             self._checkpoint.save()
+
+    @property
+    def _is_behind(self) -> bool:
+        """Whether it is time to write the tables so far; scenes that are not saved have them."""
+        if self._checkpoint is None:
+            return False
+        pause = max(self._checkpoint.interval, PAUSE * (self._took - 1.0))
+        return time.perf_counter() - self._left > pause
+
+    def _leave(self) -> None:
+        """Write the tables so far."""
+        if self.leave is None:
+            return
+        begin = time.perf_counter()
+        self.leave()
+        self._left = time.perf_counter()
+        self._took = self._left - begin
 
     def _step_on(self, step: Callable[[], None], over: Callable[[], bool]) -> None:
         """Step until it is time to look up."""

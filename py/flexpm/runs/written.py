@@ -14,8 +14,10 @@ from ..report.curves import curve_picture, wave_picture
 from ..report.emission import emission_picture
 from ..report.maps import crack_picture, fragment_picture
 from ..report.outside import draw_solid
+from ..report.pages.page import FILE as REPORT
 from ..report.tables import size_text
 from ..results.result import Result
+from ..results.result_checks import SO_FAR, UNFINISHED
 from ..results.solids.state import SolidSnapshot, drawn_state
 from ..results.vtu import write_vtu
 from ..specimens.files import given
@@ -24,10 +26,11 @@ from ..specimens.files import given
 OUTSIDE = "outside.png"
 #: Names of the files of a test.
 FILES = (
+    SO_FAR,
     *("result.json", "curve.csv", "cracks.csv", "events.csv", "fragments.csv"),
     *("final.vtu", given.FILE),
     *("curve.png", "cracks.png", "events.png", "fragments.png"),
-    "report.html",
+    REPORT,
     OUTSIDE,
 )
 
@@ -47,9 +50,21 @@ def write_files(
     draw_pictures(folder, result, notches, joints)
 
 
+def write_so_far(folder: Path, result: Result) -> None:
+    """Write numbers, record and cracks of a run that has not ended into `folder`, which exists.
+
+    The numbers go to unfinished.json: a folder without result.json is that of an unfinished run.
+    """
+    result.status = UNFINISHED
+    result.write(folder, SO_FAR)
+
+
 def write_numbers(folder: Path, result: Result) -> None:
     """Write numbers, record, cracks and final state of a result into `folder`, which exists."""
     result.write(folder)
+    if (folder / SO_FAR).is_file():
+        for name in (REPORT, SO_FAR):  # a page that was made before the end
+            remove_earlier(folder / name)
     if result.snapshot is not None:
         write_vtu(folder / "final.vtu", result.snapshot, about(result.inputs))
 

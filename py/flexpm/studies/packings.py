@@ -23,7 +23,7 @@ from ..report.packings import Group, packings_picture
 from ..report.tables import columns, envelope_table, scaled
 from ..report.words import Words, words_of_test
 from ..results.strength import Envelope
-from ..runs.output import Output
+from ..runs.output import RESULT, Output
 from ..runs.run_spec import RunSpec
 from ..text import name_of
 from . import jobs
@@ -222,7 +222,8 @@ def _draw(wanted: Sequence[Job], rows: pandas.DataFrame, folder: Path) -> None:
         curves = [
             (one[names.x.column].to_numpy(), one[names.y.column].to_numpy(), counts)
             for place, counts in zip(runs["folder"], _counted(runs), strict=True)
-            if (one := _curve(folder / place / "curve.csv", names)) is not None
+            if (folder / place / RESULT).is_file()  # a killed run has a curve, too
+            and (one := _curve(folder / place / "curve.csv", names)) is not None
         ]
         peak, scatter = _peak(mean, ""), _peak(mean, "_deviation")
         count = f"{mean['runs'] - mean['failed']} of {mean['runs']}"

@@ -33,8 +33,9 @@ from ..report.style import CYCLE
 from ..report.tables import scaled, size_text
 from ..report.words import words_of_result, words_of_test
 from ..results.result import Result
+from ..results.result_checks import SO_FAR
 from ..runs.asked import told_of, write_report
-from ..runs.output import KINDS, kind_of
+from ..runs.output import KINDS, RESULT, kind_of
 from ..text import name_of, printable, words_of
 from .calibration_verdict import FILE as VERDICT
 from .jobs import place_of
@@ -61,6 +62,11 @@ def require_results(folder: Path) -> Path:
     return folder
 
 
+def has_ended(folder: Path) -> bool:
+    """Whether a folder is not that of a run under way or stopped; only such a folder is locked."""
+    return kind_of(folder) != "run" or (folder / RESULT).is_file()
+
+
 def write(folder: Path) -> Path:
     """Write report.html into the folder of a run, compare, study or calibrate.
 
@@ -73,7 +79,8 @@ def write(folder: Path) -> Path:
     kind = kind_of(require_results(folder))
     try:
         if kind == "run":
-            return write_report(folder, Result.read(folder))
+            name = RESULT if has_ended(folder) else SO_FAR
+            return write_report(folder, Result.read(folder, name))
         page = {
             "compare": _comparison,
             "packings": _packings,
@@ -231,12 +238,12 @@ def _read(path: Path) -> list[dict[str, str]]:
 
 
 def _results(folder: Path, places: Iterable[str]) -> dict[str, Result]:
-    """Results of runs by their folder; those that left none are left out."""
+    """Results of finished runs by their folder."""
     found = {}
     for place in places:
         if Path(place).is_absolute() or ".." in Path(place).parts:
             raise InputError(f"report: run = {place!r}, must lie in {folder}; correct its table")
-        if (folder / place / "curve.csv").is_file():
+        if (folder / place / RESULT).is_file():
             found[place] = Result.read(folder / place)
     return found
 

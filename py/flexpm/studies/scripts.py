@@ -25,6 +25,7 @@ from ..files import Table, read_text
 from ..kinds.registry import OWN
 from ..require import POSITIVE, quoted, require_number
 from ..results.result import Result
+from ..results.result_checks import UNFINISHED
 from ..runs.output import RESULT, Output
 from .jobs import spelt, text_of
 
@@ -295,6 +296,6 @@ def _of_folder(folder: Path) -> tuple[int, str]:
         result = Result.read(folder)
     except InputError as error:
         return 3, str(error)
-    if result.failed:
+    if result.failed or result.status == UNFINISHED:
         return 3, f"status = {result.status} after {result.steps} steps"
     return 0, ""

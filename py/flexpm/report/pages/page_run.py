@@ -16,6 +16,7 @@ from ...kinds.registry import kind_of
 from ...results import measures
 from ...results.cracks import MODES, SHEAR, TENSILE
 from ...results.result import Result
+from ...results.result_checks import FINISHED, SO_FAR
 from ...results.snapshot import Snapshot
 from ...results.solids.state import SolidSnapshot
 from ...results.vtu import read_state
@@ -39,7 +40,7 @@ from .page import (
 )
 from .page_core import volume_chart
 from .page_map import crack_map
-from .statuses import OWN_STATUS, STATUS
+from .statuses import NOT_ENDED, OWN_STATUS, STATUS
 
 #: Points of a curve.
 _POINTS = 700
@@ -90,12 +91,12 @@ def write_page(
         title=test_text(result),
         about=size_text(result),
         versions=versions(result),
-        status=STATUS.get(result.status),
+        status=STATUS.get(result.status, NOT_ENDED),
         results=Rows("Result", ("quantity", "value"), result_rows(result)[:-1], _reading(result)),
         warnings=[*result.warnings, *missing],
         charts=[chart, *_volume(result), _energy_chart(result)] if len(rows) else [],
         maps=maps,
-        tables=_tables(result, inputs, _rates_table(result), _networks_table(result)),
+        tables=_tables(folder, result, inputs, _rates_table(result), _networks_table(result)),
         pictures=_pictures(folder, _PICTURES),
         commands=commands,
         cite=cite(result.flexpm),
@@ -128,7 +129,7 @@ def write_own_page(
         results=Rows("Result", ("quantity", "value"), known, _reading(result)),
         warnings=result.warnings,
         charts=[chart, _energy_chart(result)] if len(rows) else [],
-        tables=_tables(result, inputs, *_told_tables(result.inputs or {})),
+        tables=_tables(folder, result, inputs, *_told_tables(result.inputs or {})),
         pictures=_pictures(folder, {**_OWN_PICTURES, **_PICTURES}),
         commands=commands,
         cite=cite(result.flexpm),
@@ -137,9 +138,12 @@ def write_own_page(
     return folder / FILE
 
 
-def _tables(result: Result, inputs: Iterable[Input], *first: Rows | None) -> list[Rows]:
+def _tables(
+    folder: Path, result: Result, inputs: Iterable[Input], *first: Rows | None
+) -> list[Rows]:
     """Tables of a page, those that have rows: its own ones first, then what each page has."""
-    others = (_pairs_table(result), emission_table(result), inputs_table(inputs))
+    file = FINISHED if (folder / FINISHED).is_file() else SO_FAR
+    others = (_pairs_table(result), emission_table(result), inputs_table(inputs, file=file))
     return [one for one in (*first, *others) if one]
 
 
@@ -292,12 +296,12 @@ def maps_of(
     return [] if found is None else [found], []
 
 
-def inputs_table(inputs: Iterable[Input], title: str = "Inputs") -> Rows:
-    """Inputs with their units and sources."""
+def inputs_table(inputs: Iterable[Input], title: str = "Inputs", file: str = FINISHED) -> Rows:
+    """Inputs with their units and sources; `file` holds them with all their digits."""
     rows = [
         (words_of(name), with_unit(value, unit), source) for name, value, unit, source in inputs
     ]
-    note = "All digits are in result.json, in SI units."
+    note = f"All digits are in {file}, in SI units."
     return Rows(title, ("input", "value", "source"), rows, note)
 
 

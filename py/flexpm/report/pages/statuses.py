@@ -38,6 +38,15 @@ STATUS = {
         "stiffnesses that differ by many orders.",
     ),
 }
+#: The same of a run that has not ended.
+NOT_ENDED = Status(
+    "unfinished",
+    False,
+    "The run is under way or was stopped: the curve ends where its files were last written, and "
+    "all numbers are those up to there.",
+    "Start the same command into the same folder: the run resumes from its checkpoint and ends "
+    "with the same files as without the stop.",
+)
 #: The same of a script's own test, of which nobody knows when it is over, or how slow is slow.
 OWN_STATUS = {
     "ok": Status(

@@ -30,6 +30,7 @@ from ...files import Table, output_folder, read_json, refuse_folders
 from ...models.grains import Model
 from ...models.spheres import SphereModel
 from ...results.result import Result
+from ...results.result_checks import UNFINISHED
 from ...runs.asked import write_report
 from ...runs.checkpoint import INTERVAL, Checkpoint
 from ...runs.output import BEGUN, RESULT, Output, is_of_flexpm, refuse_other_kind
@@ -41,8 +42,6 @@ from ..rig import TestRig
 from .calls import Calls
 from .folder import inputs_before, inputs_of, lines_in, result_so_far
 
-#: Status of a test whose script has not come to its end.
-UNFINISHED = "unfinished"
 #: Entries of a solver that say how it is stepped, not what it steps.
 _NO_STATE = ("ompThreads", "stepsToCome", "label", "bodyIds")
 
