@@ -3,7 +3,8 @@
 
 A boundary between two minerals is often weaker, or stiffer, than both. A table ``[[interface]]``
 names the pair, which may be one mineral twice, and gives values of the contact's law or factors of
-what the rule of mixing gives (Deviation D27). What it does not name stays as it is.
+what the rule of mixing gives (Deviation D27). What it does not name stays as it is, except a
+fracture energy: a factor of a strength multiplies the energy of the same mode by its square.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from .keys import checked as checked_value
 _ELASTIC = ("normal_stiffness", "shear_ratio")
 #: All keys of a contact's law; the others are of the grains.
 KEYS = (*_ELASTIC, "tensile_strength", "cohesion", "friction", *ENERGY_KEYS, "softening")
+#: Fracture energy of the mode of each strength.
+ENERGY_OF = dict(zip(("tensile_strength", "cohesion"), ENERGY_KEYS, strict=True))
 #: What has no factor.
 _WORDS = ("softening",)
 _FACTOR = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
@@ -95,7 +98,8 @@ class Interface:
             mixed: Law by the rule of mixing; its energies are None for brittle softening.
         """
         changed: Table = dict(self.values)
-        for key, factor in self.factors.items():
+        implied = {key: one for key, one in self._implied().items() if mixed[key] is not None}
+        for key, factor in {**self.factors, **implied}.items():
             value = mixed[key]
             if value is None:
                 raise InputError(
@@ -106,6 +110,24 @@ class Interface:
             assert isinstance(value, float) and isinstance(factor, float)
             changed[key] = factor * value
         return changed
+
+    def factor_of(self, key: str) -> object:
+        """Factor of a key [-]: the given one, the implied one of a fracture energy, or 1."""
+        return {**self._implied(), **self.factors}.get(key, 1.0)
+
+    def _implied(self) -> dict[str, float]:
+        """Factors of the fracture energies that are not given: squares of those of the strengths.
+
+        Such a contact softens over a length in proportion to its strength.
+        """
+        if self.values.get("softening") == "brittle":
+            return {}
+        found = {}
+        for strength, energy in ENERGY_OF.items():
+            factor = self.factors.get(strength)
+            if isinstance(factor, float) and not {energy} & {*self.values, *self.factors}:
+                found[energy] = factor**2
+        return found
 
 
 def checked(interfaces: object, minerals: Sequence[str]) -> tuple[Interface, ...]:

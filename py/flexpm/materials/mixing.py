@@ -15,13 +15,14 @@ from __future__ import annotations
 
 import dataclasses
 import operator
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from ..errors import InputError
 from ..files import Table
 from ..require import require_known
 from . import interface
-from .interface import KEYS, Interface
+from .interface import ENERGY_OF, KEYS, Interface
 from .keys import ELASTIC_KEYS, ELASTIC_SET, ENERGY_KEYS, elastic_set_name
 from .material import ENERGY_TOLERANCE, ElasticSet, Law, Material
 from .mineral import Mineral
@@ -112,7 +113,8 @@ def from_description(described: Table, model: str) -> Material:
 def value_of(rock: Material, label: str, model: str) -> object:
     """Value that a key of the rock, or ``interface.MINERAL/MINERAL.KEY``, has for a model.
 
-    A factor that is not given is 1. None of a key that the law does not have.
+    A factor that is not given is 1, of an energy the square of that of its strength. None of a key
+    that the law does not have.
 
     Raises:
         InputError: for a mineral that the rock does not have, and as ``pair_materials``.
@@ -122,11 +124,50 @@ def value_of(rock: Material, label: str, model: str) -> object:
     names = [kind.name for kind in rock.minerals]
     pair, key, is_factor = interface.read_key(label, names)
     if is_factor:
-        own = {one.pair: one.factors for one in rock.interfaces}.get(pair, {})
-        return own.get(key, 1.0)
+        own = {one.pair: one for one in rock.interfaces}.get(pair)
+        return own.factor_of(key) if own else 1.0
     first, second = map(names.index, pair)
     law = pair_materials(rock, model)[first * len(names) + second].law(model)
     return {**law}.get(key)
+
+
+@dataclass(frozen=True)
+class LongSoftening:
+    """A strength that was lowered while its fracture energy stayed."""
+
+    contact: str  #: the mineral or the interface, for messages
+    strength: str  #: key of the strength
+    length: float  #: softening length 2 G / strength [m]
+    ratio: float  #: of this length to the one without the change [-]
+
+
+def long_softening(described: Table, most: float) -> list[LongSoftening]:
+    """Strengths of minerals and interfaces with a softening length above `most` times the usual.
+
+    The usual one is that of the rock for a mineral, and that of the mixing rule for an interface.
+    A fracture energy that was changed as well is taken to be meant.
+
+    Args:
+        described: As ``description`` gives it.
+        most: Largest ratio that is not returned [-].
+    """
+    minerals = {kind["name"]: kind for kind in described.get("minerals", ())}
+    changed = [(f"mineral {name}", kind, [described]) for name, kind in minerals.items()]
+    for one in described.get("interfaces", ()):
+        mixed = [minerals.get(name, {}) for name in one["pair"]]
+        changed.append((f"interface {'/'.join(one['pair'])}", one, mixed))
+    found = []
+    for contact, own, usual in changed:
+        for strength, energy in ENERGY_OF.items():
+            if any(law.get(key) is None for law in (own, *usual) for key in (strength, energy)):
+                continue
+            if own[energy] != _weaker(usual, energy):
+                continue
+            ratio = _weaker(usual, strength) / own[strength]
+            if ratio > most:
+                length = 2.0 * own[energy] / own[strength]
+                found.append(LongSoftening(contact, strength, length, ratio))
+    return found
 
 
 def is_brittle(described: Table) -> bool:
@@ -232,6 +273,11 @@ def _with_interface(pair: Material, own: Interface | None, model: str) -> Materi
 def _contact_law(law: Law) -> Table:
     """What of a law is the contact's."""
     return {key: value for key, value in law.items() if key in KEYS}
+
+
+def _weaker(laws: Sequence[Mapping[str, float]], key: str) -> float:
+    """Value that contacts between these grains have of a key that mixes by the smaller one."""
+    return min(law[key] for law in laws)
 
 
 def _names(first: Material, second: Material) -> tuple[str, str]:

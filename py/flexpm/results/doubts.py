@@ -11,6 +11,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from ..files import Table
 from ..kinds.registry import kind_of
 from ..kinds.test_kind import Stage
+from ..materials.interface import ENERGY_OF
+from ..materials.mixing import long_softening
 
 #: Ranges in which no rock or specimen is known to lie beyond, and what is probably meant.
 _USUAL: dict[str, tuple[float, float, str]] = {
@@ -50,6 +52,10 @@ LARGEST_PEAK_CHANGE = 0.01
 LARGEST_ENERGY_ERROR = 0.01
 #: Share of the length of a joint's lines in the specimen that may lie on earlier joints [-].
 LARGEST_TAKEN = 0.1
+#: Ratio of a softening length to that of the rock, or of the mixing rule, without a warning [-].
+LARGEST_SOFTENING_RATIO = 2.0
+#: Mode of each strength, for messages.
+_MODE_OF = {"tensile_strength": "tension", "cohesion": "shear"}
 #: Joints that one warning names.
 _NAMED_JOINTS = 5
 #: Difference from a set point by which a row has missed it [-].
@@ -93,9 +99,26 @@ def of_inputs(inputs: Table) -> list[str]:
     tables += [(f"{kind['name']} ", kind) for kind in material.get("minerals", ())]
     tables += [(f"joint {joint['name']} ", joint) for joint in material.get("joints", ())]
     lines = [line for where, values in tables for line in _of_values(where, values)]
+    lines += of_softening(material)
     lines += of_weak_joints(inputs)
     damping = inputs.get("damping")  # 0.7 before it could be chosen
     return lines + of_gravity(inputs.get("gravity") or 0.0, 0.7 if damping is None else damping)
+
+
+def of_softening(material: Table) -> list[str]:
+    """Minerals and interfaces whose lowered strength makes their softening long.
+
+    Args:
+        material: Effective parameters, as result.json has them.
+    """
+    return [
+        f"{one.contact}: softening length = {1e6 * one.length:.3g} um in "
+        f"{_MODE_OF[one.strength]}, is {one.ratio:.3g} times the usual one (limit "
+        f"{LARGEST_SOFTENING_RATIO:g}), as {one.strength} is lower and the fracture energy is not: "
+        f"points soften early and crack late; lower {ENERGY_OF[one.strength]} by the square of the "
+        f"ratio of strengths, as factor.{one.strength} of an interface does"
+        for one in long_softening(material, LARGEST_SOFTENING_RATIO)
+    ]
 
 
 def of_weak_joints(inputs: Table) -> list[str]:

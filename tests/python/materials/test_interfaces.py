@@ -18,7 +18,8 @@ from flexpm.materials import mixing
 from flexpm.materials.interface import KEYS
 from flexpm.materials.material import Material
 from flexpm.report import maps
-from flexpm.runs.run_spec import described
+from flexpm.results import doubts
+from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.specimen import Specimen
 from flexpm.studies import jobs
 
@@ -43,6 +44,7 @@ ROCK = {
         {"name": "k-feldspar", "fraction": 0.2, "softening": "brittle"},
     ],
 }
+PAIR = ["quartz", "biotite"]
 PAIRS = {"quartz": 0, "biotite": 1, "k-feldspar": 2}
 
 
@@ -66,8 +68,81 @@ def test_a_value_counts_before_the_minerals_and_a_factor_multiplies_what_mixing_
         assert law(weak, first, second) == law(plain, first, second) | changed
     assert law(weak, "biotite", "quartz", "rigid")["normal_stiffness"] == 2.5e13
     changed = {"cohesion": 15e6, "tensile_strength": 17e6}
+    changed |= {"shear_fracture_energy": 200.0, "tensile_fracture_energy": 80.0}
     assert law(weak, "quartz", "quartz") == law(plain, "quartz", "quartz") | changed
     assert law(weak, "biotite", "biotite") == law(plain, "biotite", "biotite")
+
+
+STRENGTHS = {"tensile_strength": "tensile_fracture_energy", "cohesion": "shear_fracture_energy"}
+
+
+@given(st.sampled_from([*STRENGTHS]), st.floats(1e-4, 1e4), st.sampled_from(["flexible", "rigid"]))
+def test_a_factor_of_a_strength_takes_its_square_of_the_energy(key, factor, model):
+    """The softening length 2 G / strength changes by the factor, and brittleness stays."""
+    plain = law(rock(), "quartz", "biotite", model)
+    weak = law(rock({"pair": PAIR, "factor": {key: factor}}), "quartz", "biotite", model)
+    energy = STRENGTHS[key]
+    length = [2.0 * one[energy] / one[key] for one in (plain, weak)]
+    assert length[1] == pytest.approx(factor * length[0], rel=1e-12)
+    brittleness = [one[key] ** 2 / one[energy] for one in (plain, weak)]
+    assert brittleness[1] == pytest.approx(brittleness[0], rel=1e-12)
+    other = {name: value for name, value in plain.items() if name not in (key, energy)}
+    assert other.items() <= weak.items()
+
+
+@pytest.mark.parametrize("key", [*STRENGTHS])
+def test_an_energy_that_is_given_does_not_follow_the_strength(key):
+    energy = STRENGTHS[key]
+    kept = rock({"pair": PAIR, "factor": {key: 0.3, energy: 1.0}})
+    given_ = rock({"pair": PAIR, energy: 700.0, "factor": {key: 0.3}})
+    plain = law(rock(), "quartz", "biotite")
+    assert law(kept, "quartz", "biotite") == plain | {key: 0.3 * plain[key]}
+    assert law(given_, "quartz", "biotite") == plain | {key: 0.3 * plain[key], energy: 700.0}
+    absolute = rock({"pair": PAIR, key: 0.3 * plain[key]})
+    assert law(absolute, "quartz", "biotite") == law(kept, "quartz", "biotite")
+
+
+def test_a_factor_of_a_strength_leaves_brittle_contacts_brittle():
+    pair = {"pair": ["quartz", "k-feldspar"], "factor": {"cohesion": 0.5, "tensile_strength": 2.0}}
+    found = law(rock(pair), "quartz", "k-feldspar")
+    assert found["shear_fracture_energy"] == pytest.approx(15e6**2 / (2 * 0.28 * 1.8e14))
+    brittle = rock({"pair": PAIR, "softening": "brittle", "factor": {"cohesion": 0.5}})
+    assert law(brittle, "quartz", "biotite")["softening"] == "brittle"
+
+
+def softening_warnings(material):
+    return doubts.of_softening(described(material, "flexible"))
+
+
+@pytest.mark.parametrize("key", [*STRENGTHS])
+def test_an_absolute_strength_that_makes_softening_long_is_told(key):
+    """Lengths 2 G / strength against those of the mixing rule, 4.7 um and 64 um."""
+    usual = law(rock(), "quartz", "biotite")
+    length = 2.0 * usual[STRENGTHS[key]] / usual[key]
+    assert softening_warnings(rock({"pair": PAIR, key: 0.51 * usual[key]})) == []
+    (line,) = softening_warnings(rock({"pair": PAIR, key: 0.4 * usual[key]}))
+    assert line.startswith(f"interface biotite/quartz: softening length = {2.5e6 * length:.3g} um")
+    assert "is 2.5 times the usual one (limit 2)" in line and STRENGTHS[key] in line
+    # factors lower the energy, too, and an energy that is given is meant
+    assert softening_warnings(rock({"pair": PAIR, "factor": {key: 0.1}})) == []
+    both = {key: 0.1 * usual[key], STRENGTHS[key]: 0.9 * usual[STRENGTHS[key]]}
+    assert softening_warnings(rock({"pair": PAIR, **both})) == []
+
+
+def test_a_mineral_with_a_lower_strength_than_its_rock_is_told():
+    kinds = [*ROCK["mineral"][:1], {"name": "mica", "fraction": 0.5, "tensile_strength": 2e6}]
+    (line,) = softening_warnings(Material.from_dict(copy.deepcopy(ROCK) | {"mineral": kinds}))
+    assert line.startswith("mineral mica: softening length = 20 um in tension, is 4.25 times")
+
+
+def test_the_key_of_a_run_holds_the_energies_in_effect():
+    """A finished run with other energies is no run of this material."""
+    found = []
+    for factors in ({}, {"shear_fracture_energy": 1.0}, {"shear_fracture_energy": 0.25}):
+        material = rock({"pair": PAIR, "factor": {"cohesion": 0.5, **factors}})
+        spec = RunSpec.from_options("uniaxial", {}, material)
+        found.append(spec.key())
+    assert found[0] == found[2] != found[1]
 
 
 def test_softening_of_a_pair_is_its_own():
@@ -119,7 +194,10 @@ def test_wrong_interfaces_are_refused_in_one_line(interfaces, words):
 @pytest.mark.parametrize(
     ("interface", "words"),
     [
-        ({"factor": {"cohesion": 20.0}}, "shear_fracture_energy.*must not be below"),
+        (
+            {"factor": {"cohesion": 20.0, "shear_fracture_energy": 1.0}},
+            "shear_fracture_energy.*must not be below",
+        ),
         ({"tensile_strength": 90e6}, "tensile_fracture_energy.*must not be below"),
     ],
 )
@@ -208,11 +286,15 @@ def test_the_present_value_of_a_key_is_what_a_calibration_starts_from():
             "biotite/quartz.cohesion",
             "quartz/biotite.factor.friction",
             "quartz/biotite.factor.tensile_strength",
+            "biotite/quartz.factor.shear_fracture_energy",
             "quartz/quartz.cohesion",
         )
     }
-    assert [*value.values()] == [20e6, 0.5, 1.0, 30e6]
+    assert [*value.values()] == [20e6, 0.5, 1.0, 1.0, 30e6]
     assert mixing.value_of(weak, "cohesion", "flexible") == 30e6
+    implied = weak.with_set({"interface.biotite/quartz.factor.cohesion": 0.5})
+    label = "interface.biotite/quartz.factor.shear_fracture_energy"
+    assert mixing.value_of(implied, label, "flexible") == 0.25
     with pytest.raises(InputError, match=r"mica"):
         mixing.value_of(weak, "interface.quartz/mica.cohesion", "flexible")
 
