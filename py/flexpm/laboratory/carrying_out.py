@@ -19,7 +19,7 @@ from ..progress import Progress
 from ..results.result import Result
 from ..results.vtu import write_vtu
 from ..rigs.fitting import rig as rig_of
-from ..rigs.frames import FrameWriter, show_frames
+from ..rigs.frames import FRAMES, FrameWriter, show_frames
 from ..rigs.outcome.folder import lines_in
 from ..rigs.rig import TestRig
 from ..rigs.solids.disc_rig import SolidDiscRig
@@ -129,8 +129,7 @@ def _tested(
     if folder is not None and not (folder / RESULT).exists():  # else they are those of the end
         runner.leave = partial(_leave, folder, rig, plan.spec)
     if folder is not None and output.frames:
-        resumed_at = yade.O.iter if restore is not None else None
-        rig.watch = FrameWriter(folder, output.frames, about(spec.to_json()), resumed_at)
+        rig.watch = _frame_writer(plan, spec, restore)
     for stage in spec.kind.stages:
         if spec.halvings is not None and spec.kind.settles and stage in (Stage.LOAD, Stage.SLIDE):
             rig.keep_start(start)
@@ -143,6 +142,21 @@ def _leave(folder: Path, rig: TestRig, spec: RunSpec) -> None:
     """Write the tables of a test that is under way, once there is a record."""
     if not rig.diverged and len(rig.record):
         write_so_far(folder, outcome(rig, spec))
+
+
+def _frame_writer(plan: Plan, spec: RunSpec, restore: Callable[[], None] | None) -> FrameWriter:
+    """Frames of a run, which go on with those of the checkpoint that was taken up."""
+    assert plan.folder is not None
+    resumed_at = yade.O.iter if restore is not None else None
+    checkpoint, memory = plan.checkpoint, None
+    if checkpoint is not None and checkpoint.resumed_at == resumed_at:
+        memory = checkpoint.told.get(FRAMES)
+    frames = FrameWriter(
+        *(plan.folder, plan.output.frames, about(spec.to_json()), resumed_at), memory
+    )
+    if checkpoint is not None:
+        checkpoint.telling = lambda: {FRAMES: frames.remember()}
+    return frames
 
 
 def _announce(

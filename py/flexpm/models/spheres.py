@@ -63,6 +63,7 @@ class SphereModel:
         loads: Lasting force and moment on bodies, see :meth:`load`.
         memory: Plain values of a test that go with the scene.
         threads: Threads of a step, see :meth:`set_threads`.
+        dynamic: Real masses and a time step in seconds.
     """
 
     specimen: Specimen | SolidSpecimen
@@ -79,6 +80,7 @@ class SphereModel:
     loads: dict[int, tuple[float, float, float]] = field(default_factory=dict)
     memory: Table = field(default_factory=dict)
     threads: int = 1
+    dynamic: bool = False
 
     def __post_init__(self) -> None:
         made = _make_bonds(self)
@@ -300,7 +302,8 @@ def build(
     factor = mass_margin * (1.0 + damping) / 4.0
     masses, inertias = factor * bounds[0], factor * bounds[1]
     yade.O.dt = 1.0
-    if dynamic and not isinstance(specimen, SolidSpecimen):
+    real_masses = dynamic and not isinstance(specimen, SolidSpecimen)
+    if real_masses:
         real = _real_masses(specimen, laws.of_grains("density"))
         yade.O.dt = math.sqrt(float(min(np.min(real[0] / masses), np.min(real[1] / inertias))))
         masses, inertias = real
@@ -308,6 +311,7 @@ def build(
     functor, engines = _engines(specimen, kind, damping)
     set_engines(engines)
     built = SphereModel(specimen, chosen, kind, laws, bonds, functor, engines, plate_material, ids)
+    built.dynamic = real_masses
     built.set_threads(threads)
     return built
 

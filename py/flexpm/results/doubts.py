@@ -207,6 +207,18 @@ def of_result(
     return lines
 
 
+def of_rise(reached: str) -> str:
+    """Warn of a loading that ended by its default while the load still rose.
+
+    Args:
+        reached: Strain or displacement at its end, with its unit.
+    """
+    return (
+        f"status = no_peak, the load still rose at {reached}, where a loading ends by default; "
+        "give Loading(max_strain=...) to go on"
+    )
+
+
 def peak_change(loadings: Sequence[Table]) -> float | None:
     """Difference of the peaks of the last two loadings, over the last [-]; None without one."""
     peaks = [one["peak_stress"] for one in loadings[-2:]]

@@ -27,6 +27,9 @@ ELASTIC_WINDOW = (0.05, 0.25)
 #: The largest stress counts as a peak once the stress has fallen by this fraction of it.
 PEAK_DROP = 0.10
 _SEATED = 0.2
+#: End of the strain over which a stress that grows by more than so much of its largest still rises:
+#: one that stands creeps on by less, a straight line grows by a tenth [-].
+_LAST_PART, _STANDS = 0.1, 0.02
 #: Part of the loading in which a test is at least as well balanced as `unbalanced_under_way` [-].
 _UNDER_WAY = 0.8
 #: Shares of the peak between which the early and the late modulus are taken.
@@ -49,6 +52,18 @@ def peak_row(curve: Curve) -> int | None:
     if not stress[row] > 0.0 or not np.nanmin(stress[row:]) <= (1.0 - PEAK_DROP) * stress[row]:
         return None
     return row
+
+
+def still_rises(curve: Curve) -> bool:
+    """Whether the stress had passed no peak and still rose over the last tenth of the strain."""
+    stress, strain = differential_stress(curve), curve["axial_strain"]
+    if len(stress) == 0 or not np.all(np.isfinite(stress)) or peak_row(curve) is not None:
+        return False
+    before = np.flatnonzero(strain <= (1.0 - _LAST_PART) * strain[-1])
+    largest = float(stress.max())
+    if not (len(before) and strain[-1] > 0.0 and largest > 0.0):
+        return False
+    return bool(stress[-1] - stress[before[-1]] > _STANDS * largest)
 
 
 def until_regained(curve: Curve) -> Curve:

@@ -120,9 +120,8 @@ class Result(Shown):
     @property
     def failed(self) -> bool:
         """Whether the simulation failed: it diverged or passed no peak."""
-        if not kind_of(self.test).needs_peak:
-            return self.status == "diverged"
-        return self.status in FAILED or (self.status != "ok" and self.peak_stress is None)
+        without = self.status != "ok" and self.peak_stress is None
+        return self.status in FAILED or (without and kind_of(self.test).needs_peak)
 
     @property
     def warnings(self) -> list[str]:
@@ -204,12 +203,12 @@ class Result(Shown):
         fast = fast or (growth is not None and growth > largest)
         self.status = self._status(diverged, peak, fast)
 
-    def measure_core(self, *, solid: bool) -> None:
+    def measure_core(self, *, solid: bool, dynamic: bool) -> None:
         """Fill what a laboratory reads off a compressed core; the record gets its volume."""
         record = self.curve
         self.crack_initiation_stress = core.crack_initiation_stress(record)
         self.crack_initiation_stress_volumetric = core.crack_initiation_stress_volumetric(
-            record, *self.start_moduli, solid=solid
+            record, *self._moduli(dynamic=dynamic), solid=solid
         )
         self.crack_damage_stress = core.crack_damage_stress(record, solid=solid)
         self.curve = core.with_volume(record, solid=solid)
@@ -218,10 +217,13 @@ class Result(Shown):
     def start_moduli(self) -> tuple[float | None, float | None]:
         """Young's modulus [Pa] and Poisson's ratio [-] of the elastic start of the loading.
 
-        Models without one, those of particles and of spheres, have those of the record's elastic
-        part.
+        Where there is none, of particles, of spheres, and with real masses, they are those of the
+        record's elastic part.
         """
-        if self.model in _SOFTENING:
+        return self._moduli(dynamic=(self.inputs or {}).get("dynamic", False))
+
+    def _moduli(self, *, dynamic: bool) -> tuple[float | None, float | None]:
+        if self.model in _SOFTENING and not dynamic:
             return measures.start_moduli(self.curve)
         return self.youngs_modulus, self.poissons_ratio
 

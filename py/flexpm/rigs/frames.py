@@ -18,7 +18,7 @@ from xml.etree import ElementTree
 import yade
 
 from ..errors import InputError
-from ..files import csv_text, load_csv, write_text
+from ..files import Table, csv_text, load_csv, write_text
 from ..require import quoted
 from ..results.result import Result
 from ..results.snapshot import Snapshot
@@ -34,6 +34,8 @@ _GROWTH = 1.01
 _FALLS = (0.95, 0.8)
 #: Kinds of frames.
 _EVEN, _PEAK = "even", "peak"
+#: Name of the frames' memory in a checkpoint.
+FRAMES = "frames"
 #: Names of frames, below the folder of the run.
 _FILE = re.compile(rf"{FOLDER}/frame-[0-9]+\.vtu")
 
@@ -52,7 +54,12 @@ class FrameWriter:
     """Watches a rig and writes frames of it."""
 
     def __init__(
-        self, folder: Path, wanted: int, about: Mapping[str, object], resumed_at: int | None
+        self,
+        folder: Path,
+        wanted: int,
+        about: Mapping[str, object],
+        resumed_at: int | None,
+        memory: Table | None = None,
     ) -> None:
         """Take up the frames of an earlier start, or remove those of another run.
 
@@ -62,19 +69,43 @@ class FrameWriter:
                 are kept at most, fewer if the test ends before or has fewer rows.
             about: What each file says of the run.
             resumed_at: Step from which an earlier start goes on, None for none.
+            memory: What `remember` returned at that step; None: nothing is known of it.
         """
         self._folder, self._wanted, self._about = folder, wanted, about
-        self.frames = _read(folder, resumed_at)
-        self._spacing = 0.0
-        self._next = -math.inf
-        self._confinement = 0.0
-        self._peak: tuple[Frame, Snapshot | SolidSnapshot] | None = None
-        self._growing, self._falls = 0.0, list[float]()
+        memory = memory or {}
+        self.frames = _read(folder, resumed_at, memory)
+        self._spacing: float = memory.get("spacing", 0.0)
+        self._next: float = memory.get("next", -math.inf)
+        self._confinement: float = memory.get("confinement", 0.0)
+        #: frame below the peak, which is listed once the stress falls; its state, if not written
+        self._peak: Frame | None = None
+        self._peak_state: Snapshot | SolidSnapshot | None = None
+        if peak := memory.get("peak"):
+            self._peak = _known([peak])[0]
+        self._growing: float = memory.get("growing", 0.0)
+        self._falls: list[float] = [*memory.get("falls", ())]
         (folder / FOLDER).mkdir(exist_ok=True)
         kept = {one.file for one in self.frames}
+        if self._peak is not None:
+            kept.add(self._peak.file)
         for file in (folder / FOLDER).glob("frame-*.vtu"):
             if f"{FOLDER}/{file.name}" not in kept:
                 file.unlink()
+
+    def remember(self) -> Table:
+        """Write the state of the peak, and return what a later start needs for the same frames."""
+        if not self._spacing:
+            return {}
+        self._write_peak_state()
+        return {
+            "frames": self.frames,
+            "peak": self._peak,
+            "spacing": self._spacing,
+            "next": self._next,
+            "confinement": self._confinement,
+            "growing": self._growing,
+            "falls": self._falls,
+        }
 
     def __call__(self, rig: TestRig) -> None:
         """Look at a rig after a step."""
@@ -83,7 +114,9 @@ class FrameWriter:
             self._take_even(rig, strain, stress)
         above = stress - self._confinement
         if above >= self._growing > 0.0:
-            self._peak = self._frame(strain, stress, _PEAK), rig.built.snapshot()
+            self._forget_peak()
+            self._peak = self._frame(strain, stress, _PEAK)
+            self._peak_state = rig.built.snapshot()
             self._growing, self._falls = _GROWTH * above, list(_FALLS)
         elif self._falls and above <= self._falls[0] * self._growing / _GROWTH:
             self._falls.pop(0)
@@ -100,22 +133,15 @@ class FrameWriter:
     def _take_even(self, rig: TestRig, strain: float, stress: float) -> None:
         if not self._spacing:
             self._begin(rig)
-            if strain < self._next:
-                return
         self._write(self._frame(strain, stress, _EVEN), rig.built.snapshot())
         self._thin()
         self._next = strain + self._spacing
 
     def _begin(self, rig: TestRig) -> None:
-        """Choose the spacing; that of an earlier start is a power of two times it."""
+        """Choose the spacing at first."""
         self._spacing = rig.reference_strain / self._wanted
         self._confinement = rig.confinement or 0.0
         self._growing = 1e-3
-        even = [one.axial_strain for one in self.frames if one.kind == _EVEN]
-        if len(even) > 1:
-            times = (even[1] - even[0]) / self._spacing
-            self._spacing *= 2.0 ** max(0, round(math.log2(times)))
-            self._next = even[-1] + self._spacing
 
     def _thin(self) -> None:
         even = [one for one in self.frames if one.kind == _EVEN]
@@ -133,24 +159,48 @@ class FrameWriter:
         return Frame(step, strain, stress, kind, f"{FOLDER}/frame-{step:010d}.vtu")
 
     def _write_peak(self) -> None:
-        if self._peak is not None:
-            self._write(*self._peak)
-            self._peak = None
+        if self._peak is None:
+            return
+        self._write_peak_state()
+        self._add(self._peak)
+        self._peak = None
+
+    def _write_peak_state(self) -> None:
+        if self._peak is None or self._peak_state is None:
+            return
+        if all(one.step != self._peak.step for one in self.frames):
+            self._write_state(self._peak, self._peak_state)
+            self._peak_state = None
+
+    def _forget_peak(self) -> None:
+        """Remove the state of a peak that a larger one has followed."""
+        written = self._peak is not None and self._peak_state is None
+        if written and all(one.step != self._peak.step for one in self.frames):
+            (self._folder / self._peak.file).unlink(missing_ok=True)
+        self._peak = self._peak_state = None
 
     def _write(self, frame: Frame, snapshot: Snapshot | SolidSnapshot) -> None:
-        if any(one.step == frame.step for one in self.frames):
-            return
+        if all(one.step != frame.step for one in self.frames):
+            self._write_state(frame, snapshot)
+            self._add(frame)
+
+    def _write_state(self, frame: Frame, snapshot: Snapshot | SolidSnapshot) -> None:
         about = {name: value for name, value in frame._asdict().items() if name != "file"}
         write_vtu(self._folder / frame.file, snapshot, {**self._about, **about})
-        self.frames = sorted([*self.frames, frame])
-        self._list()
+
+    def _add(self, frame: Frame) -> None:
+        if all(one.step != frame.step for one in self.frames):
+            self.frames = sorted([*self.frames, frame])
+            self._list()
 
     def _list(self) -> None:
         """Write the list of the frames, as a table and for ParaView."""
-        write_text(self._folder / TABLE, csv_text(Frame._fields, self.frames))
+        # a later start knows frames that were removed after its checkpoint, until it removes them
+        there = [one for one in self.frames if (self._folder / one.file).is_file()]
+        write_text(self._folder / TABLE, csv_text(Frame._fields, there))
         root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
         collection = ElementTree.SubElement(root, "Collection")
-        for one in self.frames:
+        for one in there:
             ElementTree.SubElement(
                 collection, "DataSet", timestep=str(one.step), part="0", file=one.file
             )
@@ -172,12 +222,18 @@ def read(folder: Path) -> list[Frame]:
             Frame(int(step), float(strain), float(stress), kind, file)
             for step, strain, stress, kind, file in rows
         ]
-        for one in found:  # a run removes files by these names
-            if not _FILE.fullmatch(one.file):
-                raise ValueError(f"file {quoted(one.file)} is no frame")
-        return found
+        return _known(found)
     except ValueError as error:
         raise InputError(f"frames = {str(folder / TABLE)!r}, is no list: {error}") from None
+
+
+def _known(rows: Sequence[Sequence[object]]) -> list[Frame]:
+    """Frames of rows, whose files are surely frames: a run removes files by these names."""
+    found = [Frame(*row) for row in rows]  # type: ignore[arg-type]
+    for one in found:
+        if not _FILE.fullmatch(one.file):
+            raise ValueError(f"file {quoted(one.file)} is no frame")
+    return found
 
 
 def show_frames(folder: Path, frames: Sequence[Frame], result: Result, film: str | None) -> None:
@@ -194,8 +250,10 @@ def show_frames(folder: Path, frames: Sequence[Frame], result: Result, film: str
         films.write_film(folder / f"film.{film}", result, shown)
 
 
-def _read(folder: Path, resumed_at: int | None) -> list[Frame]:
+def _read(folder: Path, resumed_at: int | None, memory: Table) -> list[Frame]:
     """Frames that an earlier start has left, up to where it is taken up."""
+    if resumed_at is not None and "frames" in memory:
+        return _known(memory["frames"])
     if resumed_at is None or not (folder / TABLE).is_file():
         return []
     return [one for one in read(folder) if one.step <= resumed_at and (folder / one.file).is_file()]

@@ -78,7 +78,8 @@ class GrainRig(TestRig):
             missed = measures.set_point_missed(record, recorder.controlled)
             lines += doubts.of_set_point(recorder.controlled, missed)
         lines += [doubts.of_lost_gauge(name) for name in recorder.lostGauges()]
-        if kind_of(self.kind).rig is Rig.PARTS and recorder.loading is not None:
+        loaded = recorder.loading is not None and self.planned
+        if kind_of(self.kind).rig is Rig.PARTS and loaded:
             growth = measures.growth_before_peak(record, self.scales().crossing_steps)
             lines += doubts.of_growth(growth)  # a load that grew fast up to its peak
         return lines
@@ -175,11 +176,12 @@ class GrainRig(TestRig):
             self._begin_record()
             recorder.loading = self._take_hold()
             undamped = plan.running_shares is not None or plan.control != ""
-            recorder.loading.undampedLoading = undamped
+            real = self.built.dynamic  # a boundary condition alone: waves carry it into the grains
+            recorder.loading.undampedLoading = undamped and not real
             # elastic velocities raise no wave: a loading that has them may begin at full speed;
             # one that looks ahead does so from the first row on
             ahead = plan.softening_growth > 0.0 and not plan.control
-            factor = 1.0 if self.disc or ahead else plan.fastest
+            factor = 1.0 if self.disc or ahead or real else plan.fastest
         self._move(plan.velocity if self.tension else -plan.velocity, factor)
         if waiting := self.built.engine(wrapper.CrackWaitController):
             waiting.release()
@@ -276,7 +278,10 @@ class GrainRig(TestRig):
         self.built.add_engines(after=(self._recorder,))
 
     def _set_row_period(self) -> None:
-        steps = math.ceil(self.scales().crossing_steps / _ROWS_A_CROSSING)
+        self._set_period_for(self.scales().crossing_steps)
+
+    def _set_period_for(self, crossing: float) -> None:
+        steps = math.ceil(crossing / _ROWS_A_CROSSING)
         self.built.solver.measurePeriod = min(steps, _LONGEST_PERIOD)
 
     def _measure_every(self, steps: int) -> None:
@@ -317,7 +322,7 @@ class NodeRig(GrainRig):
         edges = wrapper.ConfinementController(
             pressure=pressure, sides=[RIGHT, TOP, LEFT], rampSteps=ramp
         )
-        ends = wrapper.EndDisplacementController(holdTop=False)
+        ends = self._new_ends(hold_top=False)
         self.built.add_engines(before=(edges, ends))
 
     def _take_hold(self) -> wrapper.LoadingController:
@@ -326,17 +331,24 @@ class NodeRig(GrainRig):
             self.built.solver.clearPressure(TOP)
             self._ends().holdTop = True
         else:
-            self.built.add_engines(before=(wrapper.EndDisplacementController(),))
+            self.built.add_engines(before=(self._new_ends(),))
         ends = self._ends()
         if self.built.specimen.edge_joints is not None:
             # what slides lets go within the time of a wave
             ends.ofJoints, ends.renewPeriod = True, math.ceil(self.scales().crossing_steps)
         return ends
 
+    def _new_ends(self, *, hold_top: bool = True) -> wrapper.EndDisplacementController:
+        return wrapper.EndDisplacementController(
+            holdTop=hold_top, elasticStart=not self.built.dynamic
+        )
+
     def _move(self, velocity: float, factor: float) -> None:
         self._ends().velocity, self._ends().velocityFactor = velocity, factor
 
     def _preload(self, steps: int) -> None:
+        if self.built.dynamic:
+            raise InputError("load: static = True, must be False with real masses; leave it out")
         self._ends().preload(_PRELOAD_SHARE, steps)
         self.built.solver.measurePeriod = 1
 
@@ -363,7 +375,8 @@ class PlateRig(GrainRig):
         else:
             self._lay_ends()
         # plates that touch a disc at a point press into it at first: its velocities change soon
-        upper = wrapper.PlateController(plates=[1], elasticStart=not self.disc)
+        elastic = not (self.disc or self.built.dynamic)
+        upper = wrapper.PlateController(plates=[1], elasticStart=elastic)
         self.built.add_engines(before=(upper,))
         return upper
 

@@ -7,7 +7,7 @@ from yade import wrapper
 
 from ..errors import InputError
 from ..files import Table
-from ..require import require_flag, require_known
+from ..require import quoted, require_flag, require_known
 from ..results.record import COLUMNS
 from .layout import PartLayout
 from .parts import HeldNodes, Part, RigPart, require_part
@@ -107,6 +107,26 @@ class PartColumns(PartLayout):
                 continue
             label = self._gauge_name(name)
             self._add_gauge(label, wrapper.Gauge(plate=plate, direction=unit, reads=name))
+
+    def reading(self, name: str) -> float:
+        """Return what a gauge reads in the present state, in the unit of its column.
+
+        It works before the record begins, as after `settle` or `press`, and counts then from where
+        the grains were bonded; later from where the record counts.
+
+        Args:
+            name: Name of the gauge.
+
+        Raises:
+            InputError: for an unknown gauge, or one of an erased grain.
+        """
+        self._require_scene("reading")
+        require_known("reading: gauge", name, [one.name for one in self._recorder.gauges])
+        if name in self._recorder.lostGauges():
+            raise InputError(
+                f"reading: the grain of gauge {quoted(name)} has been erased; place another gauge"
+            )
+        return self._recorder.reading(name)
 
     def also(self, name: str, column: str) -> None:
         """Give a column of the record a second name, which the test is known by."""

@@ -163,6 +163,11 @@ class PartLoads(PartLayout):
         }
 
     @property
+    def _turns(self) -> bool:
+        """Whether parts are turned, so that the load is a moment."""
+        return self._frame.direction[2] != 0.0
+
+    @property
     def machine(self) -> float:
         """Stiffness of the machine behind what loads [N/m]; 0: none gives way."""
         plates = self.built.solver.plates()
@@ -227,6 +232,11 @@ class PartLoads(PartLayout):
         if not self._begun:
             for name, value in asked.items():
                 setattr(frame, name, value)
+
+    def _require_driven(self, stage: str) -> None:
+        """Refuse a stage of a loading before any part loads."""
+        if not (self._frame.driven or self._frame.drivenSets):
+            raise InputError(f"{stage}: driven parts = none, must be at least 1; call drive or turn")
 
     def _require_fixed(self, call: str, free: Sequence[RigPart] = ()) -> None:
         """Refuse other loads once a set is free to move as it turns, for it holds nothing then."""

@@ -84,6 +84,8 @@ class PartRig(PartColumns, PartExcavation):
         self.disc = False
         self._kind = kind
         self._scales: Scales | None = None
+        #: Largest displacement of a history that is prescribed in time [m]; 0: there is none.
+        self._farthest = 0.0
         #: What ``confine`` presses on.
         self.pressed: Part | None = None
         self._begin_layout()
@@ -108,14 +110,30 @@ class PartRig(PartColumns, PartExcavation):
         Raises:
             InputError: where no part loads, nothing holds the specimen, or nothing resists.
         """
-        frame = self._frame
-        if not (frame.driven or frame.drivenSets):
-            raise InputError("load: driven parts = none, must be at least 1; call drive or turn")
+        self._require_driven("load")
         if self._scales is None:
             self._require_push(1.0)
-            kept = frame.loadingScales
+            kept = self._frame.loadingScales
             self._scales = Scales(*kept) if kept else super().scales()
+            if self._begun and not kept:  # by motions that were prescribed
+                self._keep_scales()
         return self._scales
+
+    def _keep_scales(self) -> None:
+        if self._scales is not None:
+            self._frame.loadingScales = list(astuple(self._scales))
+
+    @property
+    def planned(self) -> bool:
+        """False for a record of prescribed motions alone, as of `follow` with real masses."""
+        return self._scales is not None or bool(self._frame.loadingScales)
+
+    @property
+    def reference_strain(self) -> float:
+        """Strain at about which the specimen fails, or the largest of a prescribed history [-]."""
+        if self._farthest and not self.planned:
+            return self._farthest / self._frame.length
+        return super().reference_strain
 
     @property
     def motion_energy(self) -> float:
@@ -129,8 +147,17 @@ class PartRig(PartColumns, PartExcavation):
         return energies["boundary_work"] - sum(float(part["work"]) for part in parts)
 
     @property
+    def _reached(self) -> str:
+        if self._frame.length != 1.0:
+            return super()._reached
+        unit = "angle = {:.3g} rad" if self._turns else "displacement = {:.3g} m"
+        return unit.format(self.strain)
+
+    @property
     def has_scale(self) -> bool:
-        """Before it is driven it has none."""
+        """Before it is driven it has none, with real masses before it is loaded."""
+        if self.built.dynamic:
+            return self.planned or self._farthest > 0.0
         return bool(self._frame.driven or self._frame.drivenSets)
 
     @property
@@ -217,7 +244,13 @@ class PartRig(PartColumns, PartExcavation):
         super()._begin_record()
         if self._from_now:
             self._recorder.fromNow = True
-        self._frame.loadingScales = list(astuple(self.scales()))
+        self._keep_scales()
+
+    def _set_row_period(self) -> None:
+        if self.planned:
+            super()._set_row_period()
+        else:
+            self._set_period_for(self._crossing_steps())
 
     @property
     def _ahead(self) -> float:
@@ -263,7 +296,7 @@ class PartRig(PartColumns, PartExcavation):
             plates=frame.driven,
             nodeSets=frame.drivenSets,
             backSets=frame.backSets,
-            elasticStart=True,
+            elasticStart=not self.built.dynamic,
             ofParts=True,
         )
         if kind_of(self.kind).slides:  # what slides lets go within the time of a wave
@@ -274,7 +307,8 @@ class PartRig(PartColumns, PartExcavation):
     def _move(self, velocity: float, factor: float) -> None:
         loading, direction = self._recorder.loading, self._frame.direction
         assert isinstance(loading, wrapper.PlateController)
-        if velocity and loading.started and loading.velocity.norm() == 0.0:
+        stood = loading.started and loading.velocity.norm() == 0.0
+        if velocity and stood and not self.built.dynamic:
             loading = self._take_hold_again(loading)
             assert isinstance(loading, wrapper.PlateController)
         speed = -velocity  # a rig that presses gives that of its upper end, upwards

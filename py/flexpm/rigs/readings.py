@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -95,6 +95,13 @@ class Readings(Protocol):
     def state(self) -> int: ...  # noqa: D102
 
 
+def ended_rising(stages: Sequence[Table], record: Curve) -> bool:
+    """Whether the last loading of a test ended by its default while the load still rose."""
+    loadings = [stage for stage in stages if stage["stage"] == "load"]
+    rose = bool(loadings) and loadings[-1].get("still_rises", False)
+    return rose and measures.peak_row(record) is None
+
+
 class RigReadings(ABC):
     """What can be read of a specimen between what loads it.
 
@@ -135,6 +142,11 @@ class RigReadings(ABC):
     def strain(self) -> float:
         """Axial strain of the last row of the record [-]."""
         return self._readings.strain
+
+    @property
+    def _reached(self) -> str:
+        """Strain of the last row of the record, in words."""
+        return f"axial strain = {self.strain:.3g}"
 
     @property
     @abstractmethod
@@ -179,6 +191,11 @@ class RigReadings(ABC):
     def may_fail_at_once(self) -> bool:
         """Whether the specimen may fail along a plane of which no crack tells before."""
         return False
+
+    @property
+    def planned(self) -> bool:
+        """Whether the specimen was loaded at a rate, which follows from its scales."""
+        return True
 
     @property
     def initial_energy(self) -> float | None:

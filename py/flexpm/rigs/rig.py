@@ -19,7 +19,8 @@ from ..errors import InputError, SimulationError
 from ..files import Table
 from ..models.grains import Model
 from ..models.spheres import SphereModel
-from ..require import require_number
+from ..require import quoted, require_number
+from ..results import doubts, measures
 from ..results.result import Result
 from ..runs.loading_rate import WAITING_MODELS, Loading, Schedule
 from ..runs.loading_start import LoadingStart
@@ -27,7 +28,7 @@ from ..runs.runner import Runner, Span
 from ..threads import limited
 from .outcome.calls import Keeper
 from .outcome.folder import save
-from .readings import RigReadings
+from .readings import RigReadings, ended_rising
 
 BOTTOM, RIGHT, TOP, LEFT = range(4)
 
@@ -71,6 +72,7 @@ class TestRig(RigReadings):
         done = yade.O.iter  # what came before is not known
         #: What has been done so far, as plain values: each stage, and the steps at its ends.
         self.stages: list[Table] = [{"stage": "found", "last_step": done}] if done else []
+        self._watching = False
         self._coming: Table | None = None  # the stage that has been asked for, until it begins
         #: Called after each step.
         self.watch: Callable[[TestRig], None] | None = None
@@ -106,13 +108,25 @@ class TestRig(RigReadings):
         Args:
             loading: Rate, start and end; None for the defaults.
         """
-        loading = loading or Loading()
+        loading = Loading() if loading is None else loading
+        if not isinstance(loading, Loading):
+            raise InputError(f"load: loading = {quoted(loading)}, must be a flexpm.Loading")
         self._tell("load", **asdict(loading))
         begin = partial(self.start, loading)
         if loading.static:
             self._stage(partial(self._begin_preload, loading), self._is_over)
             begin = partial(self._begin_release, loading)
-        self._stage(begin, self._is_over)
+        entered = self._stage(begin, self._is_over)
+        by_default = entered and loading.max_strain is None and not self.diverged
+        ended = self._readings.state == TestState.largest_strain_reached
+        if by_default and ended and measures.still_rises(self.record):
+            self.stages[-1]["still_rises"] = True
+
+    @property
+    def warnings(self) -> list[str]:
+        """What makes the record doubtful, and a loading that ended while the load still rose."""
+        rose = [doubts.of_rise(self._reached)] if ended_rising(self.stages, self.record) else []
+        return super().warnings + rose
 
     def strain_to(self, strain: float, rate: float = 1.0) -> None:
         """Load or unload at a constant rate until the record's axial strain has come to `strain`.
@@ -239,7 +253,11 @@ class TestRig(RigReadings):
         if self.watch is None:
             return
         done = yade.O.iter
-        self.watch(self)
+        self._watching = True
+        try:
+            self.watch(self)
+        finally:
+            self._watching = False
         if yade.O.iter != done or not yade.O.engines:
             raise SimulationError(
                 f"watch: scene = step {yade.O.iter} with {len(yade.O.engines)} engines, must stay "
@@ -268,6 +286,12 @@ class TestRig(RigReadings):
 
     def _stage(self, begin: Callable[[], Span], over: Callable[[], bool], text: str = "") -> bool:
         """Do a stage; False if an earlier start of the run has finished it, or all has diverged."""
+        if self._watching:
+            name = self._coming["stage"] if self._coming else text
+            raise SimulationError(
+                f"watch: the callback called {name}, which steps the scene; the callback may only "
+                "read"
+            )
         if self.kept is not None and self._runner.has_begun:
             self._coming = None  # an earlier start has told of it
         if self.diverged or not self._runner.enter(begin):

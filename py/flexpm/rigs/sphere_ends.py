@@ -123,6 +123,8 @@ def squeeze_disc(built: SphereModel) -> None:
 def strain_evenly(built: SphereModel, velocity: float) -> None:
     """Give the spheres the velocities of a uniform axial strain rate, so that no wave runs.
 
+    With real masses waves carry the motion of the ends into the specimen.
+
     Args:
         built: A rectangle or a solid.
         velocity: Velocity of its upper end, positive away from the lower one [m/s, or m per step].

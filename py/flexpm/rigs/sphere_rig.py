@@ -217,7 +217,7 @@ class SphereRig(TestRig):
             self._take_hold()
             now.recording = yade.O.trackEnergy = True
         outward = plan.velocity if self.tension else -plan.velocity
-        if not self.disc:
+        if not (self.disc or self.built.dynamic):
             ends.strain_evenly(self.built, outward)
         self._ends.move(outward)
 

@@ -90,7 +90,8 @@ class Checkpoint:
         position: How far the run has come.
         interval: Wall time between two checkpoints [s].
         resumed_at: Step at which an earlier run was taken up, or None.
-        told: What is saved beside: of a script's own test what it has called so far.
+        told: What is saved beside: state of the frames, and the calls of a script's own test.
+        telling: Returns it when the checkpoint is saved; None: nothing is saved beside.
     """
 
     def __init__(self, folder: Path, spec: Determined, interval: float = INTERVAL) -> None:
@@ -113,6 +114,7 @@ class Checkpoint:
         self.position = Position()
         self.resumed_at: int | None = None
         self.told: Table = {}
+        self.telling: Callable[[], Table] | None = None
         self._lock = FolderLock(folder)
         if (folder / _NAME).exists():
             self._read(folder / _NAME)
@@ -143,6 +145,8 @@ class Checkpoint:
         Raises:
             OSError: if the disk does not take it; an earlier checkpoint is left as it was.
         """
+        if self.telling is not None:
+            self.told = json.loads(json.dumps(self.telling()))
         begin = time.monotonic()
         scene = self._folder / _SCENE.format(step=yade.O.iter)
         if scene == self._scene:  # the file that checkpoint.json names must stay as it is

@@ -45,18 +45,28 @@ LARGEST_STOP_RATIO = 0.9
 _LEAST_PEAK = 0.2
 #: Tests that rates are looked for in.
 _RATED = (*KINDS.values(), OWN)
+#: A strain [-] or stress [Pa] that no test reaches.
+_NEVER = 1e300
 #: Most steps of a test: a day for the smallest specimens, and numbers that a double counts.
 _MOST_STEPS = 10**10
 
 
 @dataclass(frozen=True)
 class Loading:
-    """How the ends of a specimen are driven, and when its test ends."""
+    """How the ends of a specimen are driven, and when its test ends.
+
+    A loading ends when the stress has fallen to `stop_ratio` of its peak, or at `max_strain`. The
+    default `max_strain` is 8 times the strain of the reference strength; between parts it is at
+    least 8 times the compression at which a specimen of that size fails as a whole. If the load
+    still rises there, the status is ``no_peak``.
+    """
 
     rate: float = 1.0  #: factor on the default loading rate [-]
     kind: str = "constant"  #: one of ``LOADINGS``; others than constant are for grains
     static: bool = False  #: begin at the elastic solution; for deformable grains between their ends
-    max_strain: float | None = None  #: axial strain at which the test ends [-]; None: the default
+    #: axial strain at which the test ends [-]; between parts the displacement over the `length` of
+    #: `drive`: without a length the displacement itself [m], or an angle [rad]; None: the default
+    max_strain: float | None = None
     stop_ratio: float = STOP_RATIO  #: part of its peak to which the stress falls in the end [-]
     #: column of the record that is to grow at the rate, whatever the ends must do for it: a gauge,
     #: ``load``, ``lateral_strain``; empty: the ends themselves go at the rate
@@ -88,6 +98,9 @@ class Scales:
     height: float  #: [m]
     width: float  #: [m]
     damage_share: float = 0.0  #: least part of a fracture energy that damage takes; 0: brittle [-]
+    #: strain at which the specimen would fail as a whole, where the strength follows from the first
+    #: contact point that softens; 0: else [-]
+    failure_strain: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -105,7 +118,7 @@ class Schedule:
     least_peak: float  #: stress above the confinement before which no fall counts [Pa]
     steps: int  #: up to the largest strain at the slowest
     likely_steps: int  #: as most tests have
-    min_strain: float = -1e300  #: at which the test ends, too [-]
+    min_strain: float = -_NEVER  #: at which the test ends, too [-]
     control: str = ""  #: column of the record that a servo makes grow at the rate
     fastest_ends: float = 1.0  #: largest factor on the velocity of ends under control [-]
     #: largest speed of what comes down undamped from the peak: that which a wave gives to grains as
@@ -114,6 +127,25 @@ class Schedule:
     #: largest growth of a plane's traction in a crossing as it begins to soften, where the loading
     #: looks ahead [-]
     softening_growth: float = 0.0
+
+
+def prescribed(velocity: float) -> Schedule:
+    """Drive at one velocity that nothing ends: a boundary condition, which needs no scales.
+
+    Args:
+        velocity: Velocity of the driven parts [m/step, or m/s with real masses].
+    """
+    return Schedule(
+        velocity,
+        fastest=1.0,
+        running_shares=None,
+        reference_strain=0.0,
+        max_strain=_NEVER,
+        stop_ratio=STOP_RATIO,
+        least_peak=_NEVER,
+        steps=0,
+        likely_steps=0,
+    )
 
 
 def rates_of(test: str, model: str, *, solid: bool = False) -> Rates:
@@ -205,7 +237,8 @@ def schedule(
     reference = (scales.strength + confinement) / scales.modulus
     crossing_time = scales.crossing_steps * dt
     velocity = loading.rate * rates.constant * reference / crossing_time * scales.height
-    largest = loading.max_strain or kind.largest_strain * reference
+    # under a stress concentration a first point softens long before the specimen fails
+    largest = loading.max_strain or kind.largest_strain * max(reference, scales.failure_strain)
     steps = largest * scales.height / (velocity * dt)
     if not steps <= _MOST_STEPS:
         raise InputError(

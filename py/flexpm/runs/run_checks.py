@@ -130,6 +130,11 @@ def _check_start(run: RunInputs) -> None:
             f"run: start = static, must be rest for {run.test} of model {run.model}; static "
             f"needs the flexible model and {' or '.join(tests)}"
         )
+    if run.start == "static" and run.dynamic:
+        raise InputError(
+            "run: start = static, must be rest with real masses, which would move along the "
+            "elastic solution; leave it out"
+        )
     if run.start == "static" and run.specimen.joints is not None:
         raise InputError(
             "run: start = static, must be rest for a specimen with joints, which are not "

@@ -84,6 +84,11 @@ double damage_share(const Assembly& a)
     return least;
 }
 
+double failure_displacement(const ScaleInputs& compressed, double extent)
+{
+    return compressed.strength / compressed.modulus * extent;
+}
+
 ScaleInputs scale_inputs(const Assembly& a, Sense sense, double dt)
 {
     ScaleInputs in;

@@ -49,6 +49,9 @@ struct TestScales {
     double width = 0.0;     ///< [m]
     double damage_share =
         0.0;  ///< damage_share() of the contacts; 0 of bonds that break at once [-]
+    /// Strain of the record at which a specimen of that size would fail as a whole, where the
+    /// strength follows from its first contact point that softens; else 0 [-].
+    double failure_strain = 0.0;
 };
 TestScales rectangle_scales(const ScaleInputs& inputs, double width, double height);
 
@@ -63,6 +66,9 @@ double damage_share(const LawParameters& law);
 /// The least between grains of one kind [-]; the rest is elastic energy that a contact has at its
 /// strength, which it releases.
 double damage_share(const Assembly& a);
+
+/// Compression over an extent of the specimen at which it would fail as a whole [m].
+double failure_displacement(const ScaleInputs& compressed, double extent);
 
 /// The inputs of bonded grains, means over all of them; rigid grains have a contact_modulus().
 ScaleInputs scale_inputs(const Assembly& a, Sense sense, double dt);

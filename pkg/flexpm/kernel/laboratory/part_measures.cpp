@@ -8,6 +8,7 @@
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/motion/rigid_support.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
 #include <algorithm>
@@ -46,6 +47,37 @@ void check(const Assembly& a, const PartGeometry& parts)
     }
 }
 
+/// Middle of the specimen and its size [m].
+struct Extent {
+    Point middle;
+    double size;
+};
+
+Extent extent_of(const Grains& grains)
+{
+    const Point first = grains.reference_at(grains.centre(0));
+    Point low = first, high = first;
+    for (int g = 0; g < grains.count; ++g) {
+        const Point p = grains.reference_at(grains.centre(g));
+        low = { std::min(low.x, p.x), std::min(low.y, p.y) };
+        high = { std::max(high.x, p.x), std::max(high.y, p.y) };
+    }
+    const double size = norm(high - low);
+    return { 0.5 * (low + high), size > 0.0 ? size : 1.0 };
+}
+
+/// Length of the specimen along a direction [m].
+double extent_along(const Grains& grains, Vector direction)
+{
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int g = 0; g < grains.count; ++g) {
+        const double middle = dot(Vector(grains.reference_at(grains.centre(g))), direction);
+        low = std::min(low, middle - grains.radius[g]);
+        high = std::max(high, middle + grains.radius[g]);
+    }
+    return high - low;
+}
+
 /// Stiffness of the parts against motions of the specimen as one: along x, along y, and about a
 /// point over a length [N/m].
 struct RigidStiffness {
@@ -69,16 +101,9 @@ struct RigidStiffness {
 RigidStiffness rigid_stiffness(const Assembly& a)
 {
     const Grains& grains = a.grains;
-    const Point first = grains.reference_at(grains.centre(0));
-    Point low = first, high = first;
+    const Extent extent = extent_of(grains);
     double stiffest = 1.0;
-    for (int g = 0; g < grains.count; ++g) {
-        const Point p = grains.reference_at(grains.centre(g));
-        low = { std::min(low.x, p.x), std::min(low.y, p.y) };
-        high = { std::max(high.x, p.x), std::max(high.y, p.y) };
-    }
-    const double size = norm(high - low);
-    RigidStiffness k { 0.5 * (low + high), size > 0.0 ? size : 1.0 };
+    RigidStiffness k { extent.middle, extent.size };
     for (const Plate& plate : a.plates) {
         for (int i = 0; !plate.loaded && i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
@@ -98,14 +123,70 @@ RigidStiffness rigid_stiffness(const Assembly& a)
     return k;
 }
 
-/// Part of their contacts' stiffness with which driven plates feel nothing [-].
+/// Set of a node that is free to move as it turns; null for none.
+const NodeSet* floating_set(const Assembly& a, int component)
+{
+    for (const NodeSet& set : a.node_sets) {
+        for (int n : set.nodes)
+            for (int axis = 0; axis < dimension; ++axis)
+                if (set.floats && a.grains.component(n, axis) == component) return &set;
+    }
+    return nullptr;
+}
+
+/// Refuse parts that leave the specimen free to follow those that have a velocity.
+/// @throws std::invalid_argument  naming how it moves
+void require_resistance(const Assembly& a)
+{
+    const Grains& grains = a.grains;
+    const Extent extent = extent_of(grains);
+    RigidSupport support(extent.middle, extent.size);
+    double stiffest = 1.0;
+    for (const Plate& plate : a.plates) {
+        for (int i = 0; !plate.loaded && i < plate_points(plate); ++i) {
+            const PlatePoint p = plate_point(plate, i);
+            const auto n = a.facets.nodes(p.facet);
+            const Vector place = grains.vector_on_edge(grains.reference, n, p.weight)
+                + grains.vector_on_edge(grains.displacement, n, p.weight);
+            const Vector normal = point_normal(plate, i), along { -normal.y, normal.x, 0.0 };
+            support.add(place, normal, p.stiffness, dot(normal, plate.velocity));
+            support.add(place, along, p.shear_stiffness, dot(along, plate.velocity));
+            stiffest = std::max(stiffest, p.stiffness + p.shear_stiffness);
+        }
+    }
+    for_each_component(grains, [&](int i) {
+        if (!grains.prescribed[i]) return;
+        const int axis = grains.layout.axis_of(i);
+        const Vector along { axis == 0 ? 1.0 : 0.0, axis == 0 ? 0.0 : 1.0, 0.0 };
+        const Vector place = grains.position(i - grains.component(0, axis));
+        if (const NodeSet* set = floating_set(a, i))
+            support.add_turning(place - set->pivot, along, stiffest, grains.velocity[i]);
+        else
+            support.add(place, along, stiffest, grains.velocity[i]);
+    });
+    support.require_resistance();
+}
+
+/// Part of their contacts' stiffness with which driven parts feel nothing, since what they hold has
+/// come off [-].
 constexpr double no_resistance = 1e-9;
 
-/// Stiffness of the driven plates' contacts along the loading [N/m].
+/// Stiffness of contacts of what is driven along the loading [N/m, or N m].
 double springs_of(const Assembly& a, const PartGeometry& parts)
 {
     const Vector d = parts.direction;
     double sum = 0.0;
+    for (const auto& sets : { parts.driven_sets, parts.back_sets }) {
+        for (int number : sets) {
+            const NodeSet& set = a.node_sets[number];
+            for (std::size_t i = 0; i < set.nodes.size(); ++i) {
+                const int g = set.grains[i];
+                const Vector arm = Vector(a.grains.position(set.nodes[i])) - set.pivot;
+                const double lever = parts.turn ? dot(arm, arm) : 1.0;
+                sum += own_law(a, g).normal_stiffness * a.thickness * a.grains.radius[g] * lever;
+            }
+        }
+    }
     for (int number : parts.driven) {
         for (int i = 0; i < plate_points(a.plates[number]); ++i) {
             const StiffnessBlock k = plate_springs(a.plates[number], i);
@@ -273,6 +354,7 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
     for (int s : parts.back_sets)
         set_motion_of(moved, s, {}, -parts.turn);
     drive_node_sets(moved, unit_way);
+    require_resistance(moved);
     // a unit velocity turns rigid grains far: their contacts are looked at in the solution itself
     Array<double> solution;
     if (strength == 0.0) solution = elastic_velocities(moved, Held::by_parts);
@@ -285,12 +367,16 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
     const double felt = stiffness > no_resistance * springs_of(moved, parts) ? stiffness : 0.0;
     check_positive("stiffness that the driven parts feel", felt, "N/m");
     const double modulus = stiffness * parts.length / parts.area;
+    double failure = 0.0;
     if (strength == 0.0) {
         const double softening = elastic_time(moved, solution);
         strength = strength_over_softening * softening / parts.length * modulus;
+        const double extent = parts.turn ? 1.0 : extent_along(a.grains, parts.direction);
+        const ScaleInputs inputs = scale_inputs(a, Sense::compression, dt);
+        failure = failure_displacement(inputs, extent) / parts.length;
     }
     return { std::sqrt(3.0 * mass / stiffness) / dt, modulus, strength, parts.length,
-        a.length_of(parts.area), damage_share(a) };
+        a.length_of(parts.area), damage_share(a), failure };
 }
 
 }  // namespace flexpm

@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/motion/plate_springs.hpp>
+#include <flexpm/kernel/motion/rigid_support.hpp>
 #include <flexpm/kernel/solid_tests/solid_drive.hpp>
 #include <flexpm/kernel/solid_tests/solid_jaws.hpp>
 #include <flexpm/kernel/solid_tests/solid_sets.hpp>
@@ -146,6 +147,69 @@ SolidPartState moved_state(SolidState s, const PartGeometry& parts, double dt)
     sum_node_sets(found.state, 0.0);
     found.load = part_load(found.state, parts);
     return found;
+}
+
+/// Length of the specimen along a direction [m].
+double extent_along(const Grains& grains, Vector direction)
+{
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int g = 0; g < grains.count; ++g) {
+        const double middle = dot(space_vector(grains.reference, grains.centre(g)), direction);
+        low = std::min(low, middle - grains.radius[g]);
+        high = std::max(high, middle + grains.radius[g]);
+    }
+    return high - low;
+}
+
+/// Refuse parts that leave the specimen free to follow those that are driven.
+/// @throws std::invalid_argument  naming how it moves
+void require_resistance(const SolidState& s, const PartGeometry& parts)
+{
+    Vector low = space_vector(s.grains.reference, s.grains.centre(0)), high = low;
+    for (int g = 0; g < s.grains.count; ++g) {
+        const Vector p = space_vector(s.grains.reference, s.grains.centre(g));
+        low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
+        high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
+    }
+    const double size = norm(high - low);
+    RigidSupport support(0.5 * (low + high), size > 0.0 ? size : 1.0);
+    double stiffest = 1.0;
+    const std::vector<int>& driven = parts.driven;
+    for (int number = 0; number < static_cast<int>(s.plates.size()); ++number) {
+        const Plate& plate = s.plates[number];
+        const bool loads = std::find(driven.begin(), driven.end(), number) != driven.end();
+        if (plate.loaded && !loads) continue;
+        const Vector way = loads ? parts.direction : Vector {};
+        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
+            if (!(plate.bonded || plate.opening[i] <= 0.0)) continue;
+            const auto& nodes = s.surface.nodes[plate.facets[i]];
+            Vector place;
+            for (int k = 0; k < 3; ++k)
+                place =
+                    place + corner_share(plate, i, k) * space_vector(s.grains.reference, nodes[k]);
+            const Vector normal = normal_at(plate, i);
+            const double stiffness = point_stiffness(plate, i);
+            stiffest = std::max(stiffest, stiffness);
+            // what turns on its seat bears there alone
+            support.add(plate.seated ? plate.position : place, normal, stiffness, dot(normal, way));
+            for (const Vector& along : seat_axes(normal))
+                support.add(place, along, sliding_stiffness(plate, i), dot(along, way));
+        }
+    }
+    const SolidDrive drive = drive_of(parts);
+    std::vector<Vector> ways(s.node_sets.size());
+    drive.for_each_set([&](int set, double sense) { ways[set] = sense * parts.direction; });
+    const Vector axes[] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+    for (std::size_t number = 0; number < s.node_sets.size(); ++number) {
+        const NodeSet& set = s.node_sets[number];
+        for (int node : set.nodes) {
+            const Vector place = space_vector(s.grains.reference, node);
+            const Vector way = drive.turns ? cross(ways[number], place - set.pivot) : ways[number];
+            for (int axis = 0; axis < 3; ++axis)
+                if (set.holds(axis)) support.add(place, axes[axis], stiffest, dot(axes[axis], way));
+        }
+    }
+    support.require_resistance();
 }
 
 /// A contact as a plate sees it that turns on its seat, which is at the origin.
@@ -382,14 +446,22 @@ TestScales solid_part_scales(
     SolidState specimen = s;
     for (Plate& plate : specimen.plates)
         plate.machine_stiffness = 0.0;
+    check(specimen, parts);
+    require_resistance(specimen, parts);
     const SolidPartState moved = moved_state(std::move(specimen), parts, dt);
     const double stiffness = moved.load / moved.way, softening = moved.softening;
     check_positive("stiffness that the driven plates feel", stiffness, "N/m");
     const double mass = 2.0 * kinetic_of_velocities(moved.state);
     const double width = std::sqrt(parts.area), modulus = stiffness * parts.length / parts.area;
-    if (strength == 0.0) strength = strength_over_softening * softening / parts.length * modulus;
+    const ScaleInputs inputs = scale_inputs(s, Sense::compression, width, dt);
+    double failure = 0.0;
+    if (strength == 0.0) {
+        strength = strength_over_softening * softening / parts.length * modulus;
+        const double extent = parts.turn ? 1.0 : extent_along(s.grains, parts.direction);
+        failure = failure_displacement(inputs, extent) / parts.length;
+    }
     return { std::sqrt(3.0 * mass / stiffness) / dt, modulus, strength, parts.length, width,
-        scale_inputs(s, Sense::tension, width, dt).damage_share };
+        inputs.damage_share, failure };
 }
 
 }  // namespace flexpm

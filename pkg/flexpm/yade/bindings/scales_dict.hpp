@@ -8,7 +8,7 @@
 
 namespace flexpm_bindings {
 
-/// The scales by name: crossing_steps [-], modulus and strength [Pa], height and width [m], damage_share [-].
+/// The scales by name: crossing_steps [-], modulus and strength [Pa], height and width [m], damage_share and failure_strain [-].
 inline boost::python::dict scales_dict(const flexpm::TestScales& scales)
 {
 	boost::python::dict d;
@@ -18,6 +18,7 @@ inline boost::python::dict scales_dict(const flexpm::TestScales& scales)
 	d["height"]         = scales.height;
 	d["width"]          = scales.width;
 	d["damage_share"]   = scales.damage_share;
+	d["failure_strain"] = scales.failure_strain;
 	return d;
 }
 

@@ -165,6 +165,14 @@ py::list AxialRecorder::lostGauges() const
 	return lost;
 }
 
+Real AxialRecorder::reading(const string& name) const
+{
+	const auto solver = GrainSolver::ofScene(*Omega::instance().getScene());
+	for (const auto& gauge : gauges)
+		if (gauge->name == name) return solver->solid() ? gauge->reading(*solver->solid()) : gauge->reading(solver->current());
+	throw std::invalid_argument("AxialRecorder.reading: gauge = " + name + ", must be the name of one");
+}
+
 void AxialRecorder::addGauge(const shared_ptr<Gauge>& gauge)
 {
 	if (!gauge) throw std::invalid_argument("AxialRecorder.addGauge: gauge = None, must be a Gauge");

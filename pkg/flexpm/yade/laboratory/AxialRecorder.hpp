@@ -24,6 +24,7 @@ public:
 	void                  addGauge(const shared_ptr<Gauge>& gauge);
 	boost::python::list   gaugeList() const;
 	boost::python::list   lostGauges() const;
+	Real                  reading(const string& gauge) const;
 	/// What a column of the record that a servo may follow reads now, and what it grows by in a second with the motion of the loading.
 	/// @throws std::invalid_argument  if it is none
 	std::pair<Real, Real> measure(const string& column, GrainSolver& solver) const;
@@ -62,7 +63,8 @@ public:
 		.add_property("gauges", &AxialRecorder::gaugeList, "The gauges whose readings the record has, too; addGauge adds one.")
 		.def("addGauge", &AxialRecorder::addGauge, (boost::python::arg("gauge")), "Record what a :yref:`Gauge` reads in a column of its name, before the first row.")
 		.def("lostGauges", &AxialRecorder::lostGauges, "Names of the gauges that read a node of a grain that has been erased.")
-		.def("scales", &AxialRecorder::scales, "Scales of the test by name: crossing_steps [-], modulus and strength [Pa], height and width [m]; damage_share, the least part of a fracture energy that damage takes [-].")
+		.def("reading", &AxialRecorder::reading, (boost::python::arg("gauge")), "What the gauge of this name reads in the present state, before the first row, too [m, -, or as Gauge.reads].")
+		.def("scales", &AxialRecorder::scales, "Scales of the test by name: crossing_steps [-], modulus and strength [Pa], height and width [m]; damage_share, the least part of a fracture energy that damage takes, and failure_strain, at which a specimen between parts would fail as a whole [-].")
 	);
 	// clang-format on
 };

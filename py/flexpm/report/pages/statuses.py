@@ -62,6 +62,12 @@ OWN_STATUS = {
         "came. Strengths come out too high.",
         "Run the script again at half the rate until the peak stands still.",
     ),
+    "no_peak": Status(
+        "no_peak",
+        False,
+        "The load still rose where the loading ended by default, so there is no peak load.",
+        "Give Loading(max_strain=...) in the script: a displacement [m] unless drive has a length.",
+    ),
     "diverged": STATUS["diverged"],
     "unfinished": Status(
         "unfinished",

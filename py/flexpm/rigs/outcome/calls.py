@@ -26,7 +26,9 @@ from ...runs.runner import Runner
 from ..parts import HeldNodes, RigPart
 
 #: Public methods that only read, or that make no test of their own.
-_READERS = ("start", "scales", "balance", "unbalanced", "save", "finish", "to_yade_plot")
+_READERS = (
+    *("start", "scales", "balance", "unbalanced", "reading", "save", "finish", "to_yade_plot"),
+)
 #: Folder of what finds static solutions, which change no scene.
 _STATICS = ".statics."
 #: What marks a value that is more than a number, a text or a list.

@@ -24,6 +24,7 @@ from ...models.grains import Model
 from ...models.spheres import SphereModel
 from ...report.pages.page import FILE as REPORT
 from ...report.words import turns_by
+from ...results import measures
 from ...results.cracks import MODES
 from ...results.result import Result
 from ...results.snapshot import Snapshot
@@ -35,7 +36,7 @@ from ...runs.run_inputs import RunInputs
 from ...runs.run_spec import described, results_number
 from ...runs.written import FILES, write_files
 from ...specimens.files import given
-from ..readings import RigReadings
+from ..readings import RigReadings, ended_rising
 from .result import result_of
 
 #: Number of the way in which the inputs of a script's own test are written.
@@ -139,8 +140,11 @@ def result_so_far(rig: RigReadings, inputs: Table) -> Result:
         *(_MODULI if without_area or without_length else ()),
     ):
         setattr(result, name, None)
-    if drive and not turns_by(drive, solid=rig.solid) and len(result.curve):
+    rises = measures.still_rises(result.curve)
+    if drive and not turns_by(drive, solid=rig.solid) and len(result.curve) and not rises:
         result.peak_load = float(result.curve["load"].max())
+    if ended_rising(inputs["stages"], result.curve) and result.status != "diverged":
+        result.status = "no_peak"
     return result
 
 

@@ -37,7 +37,7 @@ from ...runs.output import BEGUN, RESULT, Output, is_of_flexpm, refuse_other_kin
 from ...runs.runner import Runner
 from ...runs.written import FILES, about, draw_pictures, write_numbers
 from ...specimens.files import given
-from ..frames import COLLECTION, STATE, TABLE, FrameWriter, show_frames
+from ..frames import COLLECTION, FRAMES, STATE, TABLE, FrameWriter, show_frames
 from ..rig import TestRig
 from .calls import Calls
 from .folder import inputs_before, inputs_of, lines_in, result_so_far
@@ -89,7 +89,7 @@ class KeptTest:
         refuse_other_kind(self._folder, "run")
         before = inputs_before(built)
         self._before = before.to_json()
-        self._checkpoint = _Saved(self._folder, before, interval)
+        self._checkpoint = Checkpoint(self._folder, before, interval)
         found, told = self._checkpoint.found, self._checkpoint.told
         earlier = told.get("calls", []) if found else self._calls_of_result()
         self._stages: list[Table] = told.get("stages", [])
@@ -149,7 +149,10 @@ class KeptTest:
         self._frames: FrameWriter | None = None
         if self._output.frames:
             said = about({**self._before, "confinement": 0.0})
-            self._frames = FrameWriter(self._folder, self._output.frames, said, self._resumed_at)
+            self._frames = FrameWriter(
+                *(self._folder, self._output.frames, said, self._resumed_at),
+                self._checkpoint.told.get(FRAMES),
+            )
         self._mark, self._done = _mark(rig), (yade.O.iter, len(rig.stages))
         _open.append(self)
 
@@ -231,7 +234,8 @@ class KeptTest:
         assert rig is not None
         if self.calls.inside and rig.saves_anywhere:
             self._write(rig, f"{self._doing} is under way")
-        return {"calls": self.calls.made, "stages": rig.stages, "reason": self._reason}
+        told = {"calls": self.calls.made, "stages": rig.stages, "reason": self._reason}
+        return told if self._frames is None else {**told, FRAMES: self._frames.remember()}
 
     def _write(self, rig: TestRig, ended: str) -> None:
         """Write numbers, record, cracks and state as they are now."""
@@ -301,17 +305,6 @@ def close_open() -> None:
     """Draw what tests have come to whose script has ended, or goes on with another one."""
     for test in [*_open]:
         test.close()
-
-
-class _Saved(Checkpoint):
-    """A checkpoint that holds what the script has called, too."""
-
-    telling: Callable[[], Table] | None = None
-
-    def save(self) -> None:
-        if self.telling is not None:
-            self.told = json.loads(json.dumps(self.telling()))
-        super().save()
 
 
 def _mark(rig: TestRig) -> bytes:

@@ -50,8 +50,9 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
     kinds = [kind["name"] for kind in result.material.get("minerals", ())]
     result.cracks = cracks_from_snapshot(snapshot, result.curve, kinds)
     result.cracks_by_pair = count_by_pair(result.cracks)
-    # before it is loaded a script's own test has no scales
-    sudden = rig.may_fail_at_once and not rig.diverged and len(result.curve) > 0
+    # before it is loaded, or where its motion was prescribed, a script's own test has no scales
+    loaded = rig.planned and len(result.curve) > 0
+    sudden = rig.may_fail_at_once and not rig.diverged and loaded
     result.measure(
         largest_unbalanced,
         waiting=waiting,
@@ -60,7 +61,7 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
         initial_energy=rig.initial_energy,
     )
     if kind_of(test).is_core:
-        result.measure_core(solid=rig.solid)
+        result.measure_core(solid=rig.solid, dynamic=built.dynamic)
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
     if isinstance(snapshot, SolidSnapshot):

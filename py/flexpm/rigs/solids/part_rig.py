@@ -101,6 +101,10 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         return {**super().drives, "turns": self._frame.turns}
 
     @property
+    def _turns(self) -> bool:
+        return bool(self._frame.turns)
+
+    @property
     def may_fail_at_once(self) -> bool:
         """A test of one's own may have few contacts across."""
         return self.kind == OWN.name

@@ -4,22 +4,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 import yade
 
 from ...arrays import FloatArray
 from ...errors import InputError
 from ...require import Bounds, require_number, require_one_of, require_whole
-from ...runs.loading_rate import RATE, Loading
+from ...runs.loading_rate import RATE, prescribed
 from ...runs.runner import Span
 from ..rig import REST_CROSSINGS
 from .history import history_of
 from .pressures import PartPressures
 from .rest import WAYS
-from .still import endless
 
 #: Cycles that one call may ask for.
 _COUNT = Bounds(at_least=1, at_most=10_000)
@@ -86,8 +85,9 @@ class PartCycles(PartPressures):
     ) -> None:
         """Follow a history of the load or the way of the driven parts.
 
-        With real masses the way follows its times, in straight lines between them, and the stage
-        ends in motion. With scaled masses, where time means nothing, and by load the values are
+        With real masses the displacement follows its times, in straight lines between them, as a
+        boundary condition: waves carry it into the specimen, whose far end may be free, and the
+        stage ends in motion. With scaled masses, where time means nothing, and by load the values are
         come to one after the other at the loading rate; equal ones that follow each other are held
         until all is at rest, and so is the last one.
 
@@ -108,18 +108,23 @@ class PartCycles(PartPressures):
         instants, wanted = history_of(times, values, "N" if by == "load" else "m")
         self._require_scene("follow")
         self._require_bearing("follow", by, min(wanted))
-        self.scales()
         in_time = by == "way" and self.built.dynamic
         if in_time:
+            self._require_driven("follow")
             self._require_start(wanted)
+            if round((instants[-1] - instants[0]) / yade.O.dt) < 1:
+                raise InputError(
+                    f"follow: times = {instants[-1] - instants[0]:g} s, must take at least one "
+                    f"step of {yade.O.dt:g} s"
+                )
+            self._farthest = max(map(abs, wanted))
+        else:
+            self.scales()
         self._tell("follow", times=instants, values=wanted, by=by, rate=rate)
         if in_time:
-            for number in range(1, len(wanted)):
-                time = instants[number] - instants[number - 1]
-                self._stage(
-                    partial(self._begin_line, wanted[number] - wanted[number - 1], time),
-                    lambda: self.diverged,
-                )
+            for row in range(1, len(wanted)):
+                begin = partial(self._begin_line, instants, wanted, row)
+                self._stage(begin, lambda: self.diverged)
             return
         for number, value in enumerate(wanted):
             if number and value == wanted[number - 1]:
@@ -144,12 +149,17 @@ class PartCycles(PartPressures):
         else:
             self._come_to_rest(stage, REST_CROSSINGS)
 
-    def _begin_line(self, way: float, time: float) -> Span:
-        """Go a way in a time [m, s]."""
-        plan = endless(self._schedule(Loading()))
-        steps = max(round(time / yade.O.dt), 1)
-        self._drive(replace(plan, velocity=way / time))
-        return Span(steps, steps)
+    def _begin_line(self, times: list[float], values: list[float], row: int) -> Span:
+        """Go in a straight line to the step next to the time of a row; rows may share a step."""
+        begun, end, last = (round((times[k] - times[0]) / yade.O.dt) for k in (row - 1, row, -1))
+
+        def value(step: int) -> float:
+            time = times[0] + step * yade.O.dt
+            return values[-1] if step == last else float(np.interp(time, times, values))
+
+        if end > begun:
+            self._drive(prescribed((value(end) - value(begun)) / ((end - begun) * yade.O.dt)))
+        return Span(end - begun, end - begun)
 
     def _require_start(self, wanted: list[float]) -> None:
         """Refuse a way that does not begin where the parts are."""

@@ -30,7 +30,8 @@ class PartRest(PartStill):
 
         Damping is on meanwhile (0.7, if it was below 0.2) and then what it was. At rest the
         reactions of the parts are the weight within 0.1 %. Displacements, strains and gauges of a
-        record that begins later count from there on.
+        record that begins later count from there on; it has its first row as a loading begins.
+        Until then `reading` returns what a gauge reads.
 
         Args:
             moving: What the weight sets in motion, as a block that slides or topples, goes on: no

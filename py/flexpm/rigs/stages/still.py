@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -15,7 +14,7 @@ from yade import wrapper
 from ...errors import InputError, SimulationError
 from ...models.grains import Model
 from ...models.options import DAMPING
-from ...runs.loading_rate import WAITING_MODELS, Loading, Scales, Schedule
+from ...runs.loading_rate import WAITING_MODELS, Loading, Scales, Schedule, prescribed
 from ...runs.runner import Span
 from ..grain_rig import SETTLING_DAMPING, GrainRig
 from ..parts import HeldNodes, Part, RigPart, in_words
@@ -41,6 +40,7 @@ class PartStill(PartStatics, GrainRig):
 
     built: Model
     _scales: Scales | None
+    _farthest: float
     #: Force of which a part must not be missing in balance [N]; None: that of the pressures.
     _asked_force: float | None = None
     #: Whether strains count from the state in which the record begins.
@@ -116,7 +116,7 @@ class PartStill(PartStatics, GrainRig):
     def _stand(self) -> None:
         """Stop what is driven, if a loading has begun."""
         if self._recorder.loading is not None:
-            self._drive(replace(endless(self._schedule(Loading())), velocity=0.0))
+            self._drive(prescribed(0.0))
 
     # A load that is steered
 
@@ -173,7 +173,7 @@ class PartStill(PartStatics, GrainRig):
         way = 0.0 if stress is None else abs(stress - self.stress) / scales.modulus * scales.height
         way *= self._ahead
         back = math.ceil(2.0 * way / (rate * plan.fastest * plan.velocity * yade.O.dt))
-        self._drive(replace(endless(plan), velocity=_STILL * plan.velocity))
+        self._drive(prescribed(_STILL * plan.velocity))
         if damped:
             self._damp()
         span = self._span_of(crossings, 0.5 * crossings)
@@ -283,16 +283,3 @@ class PartStill(PartStatics, GrainRig):
 def _bears(part: RigPart) -> str:
     """A part and its force, in words."""
     return f"{part} bears {in_words(part.force, 4)} N"
-
-
-def endless(plan: Schedule) -> Schedule:
-    """A plan at one velocity that nothing ends."""
-    return replace(
-        plan,
-        fastest=1.0,
-        running_shares=None,
-        min_strain=-1e300,
-        max_strain=1e300,
-        least_peak=1e300,
-        softening_growth=0.0,
-    )

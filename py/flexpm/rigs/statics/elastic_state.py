@@ -129,8 +129,8 @@ class PartStatics(PartLoads):
         """
         frame = self._frame
         way, load = required_loading(way, load)
-        if (load is not None or way != 0.0) and not (frame.driven or frame.drivenSets):
-            raise InputError("elastic: driven parts = none, must be at least 1; call drive or turn")
+        if load is not None or way != 0.0:
+            self._require_driven("elastic")
         pressed = self._pressed(frame, {} if pressures is None else pressures)
         return solved(
             self,

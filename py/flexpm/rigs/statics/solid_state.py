@@ -86,8 +86,8 @@ class SolidPartStatics(PartStatics):
         assert isinstance(frame, wrapper.SolidPartFrame)
         driven = bool(frame.driven or frame.drivenSets)
         moves = asked is not None or way != 0.0
-        if moves and not driven:
-            raise InputError("elastic: driven parts = none, must be at least 1; call drive or turn")
+        if moves:
+            self._require_driven("elastic")
         pressed = self._pressed(frame, {} if pressures is None else pressures)
         if not (driven or pressed):
             raise InputError("elastic: pressures, driven parts = none, must be some")
