@@ -178,6 +178,7 @@ class EnumClass_TestState(IntEnum):  # noqa: N801
     past_peak = 1
     least_strain_reached = 2
     largest_strain_reached = 3
+    plateau_reached = 4
 
 class StrainGauge:
     def __init__(
@@ -224,7 +225,9 @@ def test_state(
     least_peak: float,
     min_strain: float,
     max_strain: float,
+    plateau: bool,
 ) -> EnumClass_TestState: ...
+def is_plateau(strains: FloatArray, stresses: FloatArray, plateau_strain: float) -> bool: ...
 def disc_count(area: float, d_min: float, d_max: float, porosity: float) -> int: ...
 def disc_radii(count: int, d_min: float, d_max: float, seed: int) -> FloatArray: ...
 def insert_discs(radii: FloatArray, outline: Outline, shrink: float, seed: int) -> FloatArray: ...

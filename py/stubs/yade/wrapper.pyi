@@ -229,7 +229,10 @@ class _EndsFrame(TestFrame):
 
 class RectangleFrame(_EndsFrame): ...
 class DiscFrame(_EndsFrame): ...
-class EndFrame(TestFrame): ...
+
+class EndFrame(TestFrame):
+    twoPressures: bool
+
 class SolidDiscFrame(TestFrame): ...
 
 class PartFrame(TestFrame):
@@ -271,6 +274,8 @@ class AxialRecorder(Engine):
     leastPeak: float
     minStrain: float
     maxStrain: float
+    plateauStrain: float
+    plateauFrom: int
     fromNow: bool
     stress: float
     differential: float

@@ -227,7 +227,7 @@ SolidFrame solid_frame(const SolidState& s, Sense sense)
     frame.strains = [sign, sense](const SolidState& now) {
         return TestStrains { sign * axial_strain(now), lateral_strain(now, sense) };
     };
-    frame.confinement = least_side_pressure;
+    frame.confinement = [](const SolidState& now) { return side_pressures(now).least; };
     return frame;
 }
 

@@ -59,16 +59,18 @@ bool is_pressed(const SolidState& s)
     return std::any_of(pressure.begin(), pressure.end(), [](double p) { return p != 0.0; });
 }
 
-double least_side_pressure(const SolidState& s)
+SidePressures side_pressures(const SolidState& s)
 {
-    double least = 0.0;
+    SidePressures found;
     bool any = false;
     for (std::size_t t = 0; t < s.surface.pressure.size(); ++t) {
         if (is_end(static_cast<SolidSide>(s.surface.side[t]))) continue;
-        least = any ? std::min(least, s.surface.pressure[t]) : s.surface.pressure[t];
+        const double pressure = s.surface.pressure[t];
+        found.least = any ? std::min(found.least, pressure) : pressure;
+        found.largest = any ? std::max(found.largest, pressure) : pressure;
         any = true;
     }
-    return least;
+    return found;
 }
 
 void add_pressure_forces(SolidState& s, int block)

@@ -15,8 +15,12 @@ void set_pressure(SolidState& s, int side, double pressure);
 /// Whether a pressure acts on any side.
 bool is_pressed(const SolidState& s);
 
-/// Least pressure on the sides between the ends [Pa].
-double least_side_pressure(const SolidState& s);
+/// Pressures on the sides between the ends [Pa].
+struct SidePressures {
+    double least = 0.0;
+    double largest = 0.0;
+};
+SidePressures side_pressures(const SolidState& s);
 
 /// Add the forces of pressures on the nodes of a block of grains, at their present places, and find
 /// the works since the last ones.

@@ -13,6 +13,7 @@
 
 #include <boost/python/stl_iterator.hpp>
 
+#include <algorithm>
 #include <memory>
 
 namespace py = boost::python;
@@ -43,9 +44,19 @@ namespace {
 
 	double endMismatch(double bottom, double top) { return flexpm::end_mismatch({ bottom, top }); }
 
-	flexpm::TestState testState(double stress, double peak, double strain, double stopRatio, double leastPeak, double minStrain, double maxStrain)
+	flexpm::TestState
+	testState(double stress, double peak, double strain, double stopRatio, double leastPeak, double minStrain, double maxStrain, bool plateau)
 	{
-		return flexpm::test_state(stress, peak, strain, { stopRatio, leastPeak, minStrain, maxStrain });
+		return flexpm::test_state(stress, peak, strain, { stopRatio, leastPeak, minStrain, maxStrain }, plateau);
+	}
+
+	bool isPlateau(py::object strains, py::object stresses, double plateauStrain)
+	{
+		const InputArray<double> strain(strains, 1, "strains"), stress(stresses, 1, "stresses");
+		flexpm::TestEnd          rule;
+		rule.plateau_strain = plateauStrain;
+		const auto row      = [&](std::size_t i) { return flexpm::StrainStress { strain.data()[i], stress.data()[i] }; };
+		return flexpm::is_plateau(row, 0, std::min(strain.size(0), stress.size(0)), rule);
 	}
 
 	std::vector<flexpm::SideShare> shares(const py::object& pairs)
@@ -122,8 +133,13 @@ void register_laboratory_bindings()
 	         py::arg("stop_ratio"),
 	         py::arg("least_peak"),
 	         py::arg("min_strain"),
-	         py::arg("max_strain")),
+	         py::arg("max_strain"),
+	         py::arg("plateau")),
 	        "Whether a test is over; stresses are those above the confinement [Pa].");
+	py::def("is_plateau",
+	        isPlateau,
+	        (py::arg("strains"), py::arg("stresses"), py::arg("plateau_strain")),
+	        "Whether the stresses above the confinement [Pa] have been constant, within 2 %, over the last strain of this size; not if it is 0 [-].");
 	py::class_<StrainGauge, std::shared_ptr<StrainGauge>>(
 	        "StrainGauge", "Bands and sides of a rectangle between which the strains of its grains are measured.", py::no_init)
 	        .def("__init__",

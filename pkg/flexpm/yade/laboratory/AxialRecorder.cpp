@@ -12,7 +12,7 @@
 
 namespace yade {
 
-YADE_ENUM(flexpm, TestState, (running)(past_peak)(least_strain_reached)(largest_strain_reached));
+YADE_ENUM(flexpm, TestState, (running)(past_peak)(least_strain_reached)(largest_strain_reached)(plateau_reached));
 YADE_PLUGIN((AxialRecorder));
 
 namespace {
@@ -21,6 +21,9 @@ namespace {
 		const char* name;
 		Real (*value)(const flexpm::AxialObservation&);
 	};
+
+	/// Indices of columns that the end of a test refers to.
+	constexpr std::size_t strainColumn = 1, stressColumn = 3, confinementColumn = 4;
 
 	constexpr std::array<Column, 20> recorded { {
 		{ "step", [](const auto& o) { return Real(o.step); } },
@@ -93,9 +96,22 @@ void AxialRecorder::action()
 	strain       = now.axial_strain;
 	differential = flexpm::differential_stress(now);
 	peak         = std::max(peak, differential);
-	state        = flexpm::test_state(differential, peak, strain, { stopRatio, leastPeak, minStrain, maxStrain });
+	const flexpm::TestEnd rule { stopRatio, leastPeak, minStrain, maxStrain, plateauStrain };
+	state = flexpm::test_state(differential, peak, strain, rule, hasPlateau(rule));
 	if (state != flexpm::TestState::running) scene->stopAtIter = scene->iter + 1;
 }
+
+bool AxialRecorder::hasPlateau(const flexpm::TestEnd& rule) const
+{
+	const std::size_t columns = columnCount();
+	const auto        row     = [&](std::size_t i) {
+                const Real* const all = values.data() + i * columns;
+                return flexpm::StrainStress { all[strainColumn], all[stressColumn] - all[confinementColumn] };
+	};
+	return flexpm::is_plateau(row, plateauFrom, values.size() / columns, rule);
+}
+
+std::size_t AxialRecorder::columnCount() const { return recorded.size() + testFrame().columns().size() + gauges.size() + (controlled.empty() ? 0 : 1); }
 
 void AxialRecorder::postLoad(AxialRecorder&)
 {
@@ -122,11 +138,7 @@ py::list AxialRecorder::names() const
 	return all;
 }
 
-py::object AxialRecorder::rows() const
-{
-	const std::size_t columns = recorded.size() + testFrame().columns().size() + gauges.size() + (controlled.empty() ? 0 : 1);
-	return flexpm_bindings::copied(values, columns, flexpm_bindings::Access::readOnly);
-}
+py::object AxialRecorder::rows() const { return flexpm_bindings::copied(values, columnCount(), flexpm_bindings::Access::readOnly); }
 
 std::pair<Real, Real> AxialRecorder::measure(const string& column, GrainSolver& solver) const
 {

@@ -32,6 +32,9 @@ public:
 private:
 	/// @throws std::invalid_argument  if there is none
 	const TestFrame& testFrame() const;
+	std::size_t      columnCount() const;
+	/// Whether the last rows since plateauFrom are a plateau of the rule.
+	bool hasPlateau(const flexpm::TestEnd& rule) const;
 	/// What it sees of the specimen after a step; the strains count from the bonded state.
 	flexpm::AxialObservation observed(GrainSolver& solver) const;
 
@@ -49,13 +52,15 @@ public:
 		((Real, leastPeak, 0.,, "No fall counts before the stress above the confinement has reached this [Pa]."))
 		((Real, minStrain, -1e300,, "The test is over at this axial strain or below [-]."))
 		((Real, maxStrain, 1e300,, "The test is over at this axial strain or above [-]."))
+		((Real, plateauStrain, 0.,, "The test is over once the stress above the confinement has been constant, within 2 %, over this axial strain; 0: a plateau does not end it [-]."))
+		((int, plateauFrom, 0,, "Index of the first row that may belong to a plateau [-]."))
 		((bool, fromNow, false, Attr::triggerPostLoad, "Set it to count strains, and what gauges read, from the present state of the scene on instead of from the bonded one; it is false again at once."))
 		((Vector2r, zero, Vector2r::Zero(), Attr::readonly, "Axial and lateral strain that count as zero [-] |yupdate|."))
 		((Real, stress, 0., Attr::readonly, "Axial stress of the last row [Pa] |yupdate|."))
 		((Real, differential, 0., Attr::readonly, "The same above the confinement [Pa] |yupdate|."))
 		((Real, strain, 0., Attr::readonly, "Axial strain of the last row [-] |yupdate|."))
 		((Real, peak, 0.,, "Largest stress above the confinement so far; a fall is one from here [Pa] |yupdate|."))
-		((flexpm::TestState, state, flexpm::TestState::running,, "Whether the test is over, and why: running, past_peak, least_strain_reached or largest_strain_reached. Set it to running to go on |yupdate|."))
+		((flexpm::TestState, state, flexpm::TestState::running,, "Whether the test is over, and why: running, past_peak, least_strain_reached, largest_strain_reached or plateau_reached. Set it to running to go on |yupdate|."))
 		((vector<Real>, values,, Attr::hidden, "The record, row after row [SI units]."))
 		, /* ctor */
 		, .add_property("names", &AxialRecorder::names, "Names of the record's columns.")

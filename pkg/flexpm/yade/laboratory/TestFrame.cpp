@@ -11,6 +11,7 @@
 #include <flexpm/kernel/solid_tests/solid_beam.hpp>
 #include <flexpm/kernel/solid_tests/solid_frame.hpp>
 #include <flexpm/kernel/solids/solid_plates.hpp>
+#include <flexpm/kernel/solids/solid_pressure.hpp>
 #include <flexpm/kernel/statics/elastic_state.hpp>
 
 namespace yade {
@@ -155,6 +156,18 @@ std::optional<TestFrame::Measure> EndFrame::measure(const string& column, const 
 {
 	if (column != "lateral_strain") return {};
 	return Measure { flexpm::lateral_strain(solid, sense()), flexpm::lateral_strain(solid, sense(), velocity) };
+}
+
+vector<string> EndFrame::columns() const
+{
+	if (!twoPressures) return {};
+	return { "second_confinement" };
+}
+
+vector<Real> EndFrame::values(GrainSolver& solver, Real, Real) const
+{
+	if (!twoPressures) return {};
+	return { flexpm::side_pressures(solidOf(solver)).largest };
 }
 
 flexpm::AxialObservation SolidDiscFrame::observed(GrainSolver& solver) const

@@ -125,11 +125,14 @@ public:
 	flexpm::AxialObservation observed(GrainSolver& solver) const override;
 	flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const override;
 	std::optional<Measure>   measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const override;
+	vector<string>           columns() const override;
+	vector<Real>             values(GrainSolver& solver, Real stress, Real strain) const override;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(EndFrame, TestFrame,
 		"A solid between its ends, along z.",
 		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
+		((bool, twoPressures, false,, "A box is under one pressure across x and another one across y: the record has the larger one in the column second_confinement [Pa]."))
 	);
 	// clang-format on
 
