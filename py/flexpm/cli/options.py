@@ -12,7 +12,7 @@ import click
 
 from ..kinds.option import Option
 from ..kinds.registry import KINDS, names, options
-from ..kinds.test_kind import TestKind
+from ..kinds.test_kind import PLATEAU_STRAIN, TestKind
 from ..models.options import MESHES, MODELS, POINTS, RANGE
 from ..require import NOT_NEGATIVE, POSITIVE, Bounds
 from ..runs.input_names import HALVINGS, STARTS
@@ -279,14 +279,17 @@ loading_options = combined(
         "--max-strain",
         type=Quantity("", POSITIVE),
         metavar="E",
-        help="Axial strain at which the test ends [-].  [default: by the reference strength, times "
+        help="Axial strain at which the test ends [-]. Without it a test under a confining "
+        f"pressure also ends on a plateau, once the deviator has been constant over "
+        f"{100.0 * PLATEAU_STRAIN:g} % of strain.  [default: by the reference strength, times "
         f"{_by_test(lambda kind: kind.largest_strain, 'max_strain')}]",
     ),
     click.option(
         "--stop-ratio",
         type=Quantity("", POSITIVE),
         metavar="F",
-        help="The test ends once the stress has fallen to this part of its peak [-].  "
+        help="The test ends once the deviator, the axial stress minus the least confining "
+        "pressure, has fallen to this part of its peak [-].  "
         f"[default: {_by_test(lambda kind: kind.stop_ratio, 'stop_ratio')}]",
     ),
     click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses."),

@@ -242,7 +242,7 @@ def _simulate(
         terminal.say(f"  an earlier run there {again} at step {result.resumed_at}")
     if result.failed:
         raise SimulationError(
-            f"status = {result.status} after {result.steps} steps, no strength was found; "
+            f"status = {result.status} after {result.steps} steps, {result.without_peak}; "
             f"what was reached is in {folder}"
         )
 

@@ -15,6 +15,9 @@ from .words import Columns, Words
 
 #: Part of its peak to which the stress falls before a test ends, unless told otherwise [-].
 STOP_RATIO = 0.5
+#: A test under a confining pressure ends by default once its deviator has been constant over this
+#: axial strain [-]: its largest value exceeds its smallest by 2 % of the largest at most.
+PLATEAU_STRAIN = 0.005
 
 
 class Rig(Enum):
@@ -110,6 +113,7 @@ class TestKind:
     quasi_static: bool = True
     regains: bool = False  #: stress that comes back once a specimen is broken does not count
     pulled: bool = False  #: cracks follow the tension all over the specimen
+    splits: bool = False  #: its strength is one if a disc cracks from the middle
     is_core: bool = False  #: a laboratory reads off where its cracks begin, see ``results.core``
     no_constants: tuple[str, ...] = ()  #: slopes of its record that are none of the rock
     #: What it measures beside its peak: keys of result.json, from the record and the peak stress.

@@ -71,8 +71,10 @@ def run(
             ``shear``: the lower half of a rectangle is pushed along below the upper;
             ``sonic``: a plane pulse through a specimen, with real masses and without damping, for
             the speed of its `wave`. ``flexpm run --help`` tells all of them.
-            A test is over when the stress above the confinement has fallen to `stop_ratio` of its
-            peak or the strain reaches `max_strain`.
+            A test is over when the deviator, the axial stress minus the least confining pressure,
+            has fallen to `stop_ratio` of its peak, when the strain reaches `max_strain`, or, under
+            a confining pressure and without `max_strain`, when the deviator has been constant
+            within 2 % over a strain of 0.5 %.
         specimen: A rectangle, y is the axial direction; for ``brazilian`` a disc, for ``scb`` half
             of one, of the plane or of space; for ``uniaxial``, ``tension`` and ``sonic`` also, for
             ``triaxial`` only a box or a cylinder, for ``bending``, ``shear`` and ``punch`` also a
@@ -89,9 +91,8 @@ def run(
             ``rates`` of the result has them all. None: it is done once. Not for ``sonic``.
         max_strain: Largest axial strain [-]; None for 8 times that of the reference strength, 16
             times for discs.
-        stop_ratio: Part of its peak to which the stress falls before the test ends [-]: above 0, at
-            most 0.9; None: 0.5, and 0.1 in bending. What comes after a peak takes most of a
-            confined test.
+        stop_ratio: Part of its peak to which the deviator falls before the test ends [-]: above 0,
+            at most 0.9; None: 0.5, and 0.1 in bending.
         dynamic: Real masses and time instead of scaled masses and unit steps.
         gravity: Acceleration downwards [m/s2]; other than 0 with `dynamic` only.
         start: ``rest``, or ``static``: begin at the elastic solution just below the first crack;

@@ -25,7 +25,7 @@ from ..results.record import Curve
 from ..results.result import Result
 from ..text import label_of
 from .style import COLOURS, CYCLE, MODE_NAMES, STYLE, save
-from .tables import scaled, size_text, test_text
+from .tables import pressures_text, scaled, size_text, test_text
 from .words import words_of_result
 
 #: What the sections are called, the lower one first.
@@ -215,9 +215,9 @@ def _draw_peak(axes: Axes, result: Result) -> None:
 
 
 def _caption(result: Result) -> str:
-    confined = result.confinement or 0.0
+    confined = pressures_text(result)
     name = label_of(result.material.get("name", ""))
-    where = f", confinement {1e-6 * confined:g} MPa" if confined else ""
+    where = f", confinement {confined}" if confined else ""
     caption = f"{result.test}, {result.model} model, {name}{where}"
     if result.status != "ok":
         caption += f" ({result.status.replace('_', ' ')})"

@@ -84,6 +84,7 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ("Poisson's ratio", _poissons_ratio(result)),
         (words_of_result(result).peak, scaled(result.peak_stress, 1e-6, "MPa")),
         ("strain at peak", scaled(result.peak_strain, 100.0, "%")),
+        *_splitting(result),
         *_core(result),
         ("softening slope", scaled(result.softening_slope, 1e-9, "GPa")),
         ("cracked points", counts),
@@ -114,19 +115,32 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         ]
     if result.residual_strength is not None:
         rows.insert(5, ("residual strength", scaled(result.residual_strength, 1e-6, "MPa")))
-    if result.confinement:
-        rows.insert(1, ("confinement", scaled(result.confinement, 1e-6, "MPa")))
+    if confined := pressures_text(result, "#.4g"):
+        rows.insert(1, ("confinement", confined))
     return rows
+
+
+def pressures_text(result: Result, digits: str = "g") -> str:
+    """Confining pressures of a test, of a box under two both, in the order of the options.
+
+    Args:
+        result: Outcome of the test.
+        digits: Format of a pressure in MPa.
+    """
+    given = result.inputs or {}
+    first = given.get("confinement", result.confinement)
+    second = given.get("second_confinement", result.second_confinement)
+    if not (first or second):
+        return ""
+    shown = [f"{1e-6 * one:{digits}}" for one in (first, second) if one is not None]
+    return f"{' and '.join(shown)} MPa"
 
 
 def test_text(result: Result) -> str:
     """Test, model and material in one line."""
     name = name_of(result.material.get("name", ""))
-    given = result.inputs or {}
-    pressure = given.get("confinement", result.confinement)
-    second = given.get("second_confinement")
-    told = [f"{1e-6 * one:g}" for one in (pressure, second) if one is not None]
-    confined = f" under {' and '.join(told)} MPa" if pressure or second else ""
+    pressures = pressures_text(result)
+    confined = f" under {pressures}" if pressures else ""
     return f"{result.test}{confined}, {result.model} model, {name}"
 
 
@@ -154,22 +168,32 @@ def size_text(result: Result) -> str:
     return ", ".join(parts)
 
 
+def _splitting(result: Result) -> list[tuple[str, str]]:
+    """Stress and place of the first cracks of a disc that is split."""
+    if result.first_crack_distance is None:
+        return []
+    place = f" at {result.first_crack_distance:.2f} of the radius from the middle"
+    return [("stress at the first crack", scaled(result.first_crack_stress, 1e-6, "MPa") + place)]
+
+
 def _core(result: Result) -> list[tuple[str, str]]:
     """Where the cracks of a core begin, beside what granites show: not fitted."""
     if not kind_of(result.test).is_core:
         return []
     deviator = (result.peak_stress or 0.0) - (result.confinement or 0.0)
 
-    def told(value: float | None, how: str = "") -> str:
+    def told(key: str, how: str = "") -> str:
+        value = getattr(result, key)
         part = f" ({value / deviator:.2f} of the peak)" if value and deviator > 0.0 else ""
-        return scaled(value, 1e-6, "MPa") + part + how
+        why = (result.null_reasons or {}).get(key)
+        return scaled(value, 1e-6, "MPa") + part + (f" ({why})" if why else "") + how
 
     low, high = _CONFINED_GRANITES if result.confinement else _GRANITES
-    initiation = told(result.crack_initiation_stress, " by cracks, ")
-    initiation += told(result.crack_initiation_stress_volumetric, " by volume; ")
+    initiation = told("crack_initiation_stress", " by cracks, ")
+    initiation += told("crack_initiation_stress_volumetric", " by volume; ")
     return [
         ("crack initiation", f"{initiation}granites {low:.2f} to {high:.2f}"),
-        ("crack damage", told(result.crack_damage_stress)),
+        ("crack damage", told("crack_damage_stress")),
     ]
 
 

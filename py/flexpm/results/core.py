@@ -7,6 +7,7 @@ Stresses are deviators: axial stress above the least lateral pressure.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from .record import Curve
 INITIATION_SHARE = 0.01
 #: Crack volumetric strain over the elastic one at which cracks have begun [-].
 CRACK_STRAIN_SHARE = 0.02
+_NO_LATERAL = "the lateral strain is unknown"
 #: Column of the record.
 VOLUME = "volumetric_strain"
 
@@ -53,52 +55,75 @@ def elastic_volumetric_strain(
     return (1.0 - (2.0 if solid else 1.0) * ratio) / modulus * grown
 
 
-def crack_initiation_stress(curve: Curve) -> float | None:
-    """Deviator at which 1 % of the cracks at the peak are there [Pa]; None without peak or crack.
+class Thresholds(NamedTuple):
+    """Deviators at which cracks begin and take over, by their keys in result.json."""
 
-    At least one crack counts.
-    """
-    peak = peak_row(curve)
-    if peak is None:
-        return None
-    cracks = (curve["tensile_cracks"] + curve["shear_cracks"])[: peak + 1]
-    if not cracks[-1] > 0:
-        return None
-    row = int(np.argmax(cracks >= max(1, math.ceil(INITIATION_SHARE * cracks[-1]))))
-    return float(differential_stress(curve)[row])
+    stresses: dict[str, float | None]  #: [Pa]
+    reasons: dict[str, str]  #: why a stress is missing
 
 
-def crack_initiation_stress_volumetric(
+def crack_thresholds(
     curve: Curve, modulus: float | None, ratio: float | None, *, solid: bool
-) -> float | None:
-    """Deviator from which on cracks widen the specimen by 2 % of its elastic strain [Pa].
+) -> Thresholds:
+    """Read the thresholds of a compressed core.
 
-    Crack volumetric strain is the total less the elastic one. It is read where it passes that share
-    for the last time before the peak. None without a peak, moduli or a lateral strain, and where it
-    does not pass.
+    ``crack_initiation_stress``: 1 % of the cracks at the peak exist, at least one.
+    ``crack_damage_stress``: the specimen is smallest, and dilates from there on.
+    ``crack_initiation_stress_volumetric``: crack volumetric strain, the total minus the elastic
+    one, exceeds 2 % of the elastic one from there on, until damage or else the peak. A specimen
+    that dilates has cracks: initiation by volume is not above damage. Both are the largest
+    deviator until their row, for within a burst of cracks the stress falls.
+
+    Args:
+        curve: The record.
+        modulus: Young's modulus as the loading starts [Pa].
+        ratio: Poisson's ratio as the loading starts [-].
+        solid: The specimen is one of space.
     """
-    peak = peak_row(curve)
-    if peak is None or modulus is None or ratio is None:
-        return None
-    total = volumetric_strain(curve, solid=solid)[: peak + 1]
-    elastic = elastic_volumetric_strain(curve, modulus, ratio, solid=solid)[: peak + 1]
-    if not np.all(np.isfinite(total + elastic)):
-        return None
-    within = np.flatnonzero(elastic - total <= CRACK_STRAIN_SHARE * np.abs(elastic))
-    row = int(within[-1]) + 1 if len(within) else 0
-    return float(differential_stress(curve)[row]) if row <= peak else None
-
-
-def crack_damage_stress(curve: Curve, *, solid: bool) -> float | None:
-    """Deviator at which the specimen is smallest, from where on it dilates [Pa].
-
-    None without a peak or a lateral strain, and where it shrinks up to the peak.
-    """
+    names = ("crack_initiation_stress", "crack_initiation_stress_volumetric", "crack_damage_stress")
     peak = peak_row(curve)
     if peak is None:
-        return None
-    total = volumetric_strain(curve, solid=solid)[: peak + 1]
+        return Thresholds(dict.fromkeys(names), dict.fromkeys(names, "no peak was passed"))
+    before = curve.until(peak + 1)
+    deviator = differential_stress(before)
+    total = volumetric_strain(before, solid=solid)
+    damage = _damage_row(total)
+    rows: list[int | str] = [_initiation_row(before)]
+    if modulus is None or ratio is None:
+        rows.append("elastic constants are unknown")
+    else:
+        elastic = elastic_volumetric_strain(before, modulus, ratio, solid=solid)
+        rows.append(_widening_row(total, elastic, damage if isinstance(damage, int) else None))
+    rows.append(damage)
+    reached = np.maximum.accumulate(deviator)
+    found = {
+        name: float(stress[row])
+        for name, row, stress in zip(names, rows, (deviator, reached, reached), strict=True)
+        if isinstance(row, int)
+    }
+    reasons = {name: row for name, row in zip(names, rows, strict=True) if isinstance(row, str)}
+    return Thresholds({name: found.get(name) for name in names}, reasons)
+
+
+def _initiation_row(curve: Curve) -> int | str:
+    cracks = curve["tensile_cracks"] + curve["shear_cracks"]
+    if not cracks[-1] > 0:
+        return "no point cracks up to the peak"
+    return int(np.argmax(cracks >= max(1, math.ceil(INITIATION_SHARE * cracks[-1]))))
+
+
+def _damage_row(total: FloatArray) -> int | str:
     if not np.all(np.isfinite(total)):
-        return None
+        return _NO_LATERAL
     row = int(np.argmax(total))
-    return float(differential_stress(curve)[row]) if row < peak else None
+    return row if row + 1 < len(total) else "the specimen shrinks up to the peak"
+
+
+def _widening_row(total: FloatArray, elastic: FloatArray, damage: int | None) -> int | str:
+    """Row from which on cracks widen the specimen, not behind that of damage."""
+    if not np.all(np.isfinite(total + elastic)):
+        return _NO_LATERAL
+    within = elastic - total <= CRACK_STRAIN_SHARE * np.abs(elastic)
+    last = np.flatnonzero(within[:damage])
+    row = int(last[-1]) + 1 if len(last) else 0
+    return row if row < len(total) else "cracks do not widen the specimen up to the peak"

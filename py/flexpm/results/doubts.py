@@ -79,6 +79,9 @@ LARGEST_PARTING = 2.0
 FEWEST_GRAINS_ACROSS = 6.0
 #: Difference of Poisson's ratio from the elastic one that is none [-].
 LARGEST_POISSON_CHANGE = 0.05
+#: Median distance of the first cracks of a split disc from its middle, over the radius, at which it
+#: splits from the middle [-].
+LARGEST_CRACK_DISTANCE = 0.6
 #: Grains of a solid that nothing keeps apart lie on each other by more than this [diameters].
 LARGEST_OVERLAP = 0.02
 #: Line about a pulse that has not passed both sections in one piece.
@@ -326,6 +329,26 @@ def of_poissons_ratio(ratio: float | None, elastic: float | None) -> list[str]:
         f"poissons_ratio = {ratio:.3g}, differs by {100.0 * abs(ratio / elastic - 1.0):.2g} % from "
         f"elastic_poissons_ratio = {elastic:.3g}: points soften below 25 % of the peak; the latter "
         "is that of the elastic rock"
+    ]
+
+
+def of_first_cracks(distance: float | None, first: float | None, peak: float | None) -> list[str]:
+    """What first cracks of a split disc that lie far from its middle say about its strength.
+
+    Args:
+        distance: Median distance of the first cracks from the middle over the radius [-].
+        first: Axial stress at the first crack [Pa].
+        peak: Axial stress at the peak [Pa].
+    """
+    if distance is None or not distance > LARGEST_CRACK_DISTANCE:
+        return []
+    stresses = f"first crack at {1e-6 * (first or 0.0):.4g} MPa"
+    if peak is not None:
+        stresses += f", peak at {1e-6 * peak:.4g} MPa"
+    return [
+        f"first_crack_distance = {distance:.2g} of the radius from the middle, is above "
+        f"{LARGEST_CRACK_DISTANCE:g}: the disc breaks at the plates first, and its stress is no "
+        f"tensile strength ({stresses}); take a higher cohesion, smaller grains or curved jaws"
     ]
 
 

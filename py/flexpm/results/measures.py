@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from ..arrays import FloatArray
+from ..kinds.test_kind import PLATEAU_STRAIN
 from .doubts import SET_POINT_OFF
 from .record import Curve
 
@@ -64,6 +65,12 @@ def still_rises(curve: Curve) -> bool:
     if not (len(before) and strain[-1] > 0.0 and largest > 0.0):
         return False
     return bool(stress[-1] - stress[before[-1]] > _STANDS * largest)
+
+
+def plateau_stress(curve: Curve) -> float:
+    """Mean axial stress over the plateau that has ended a test [Pa]: that of the last rows."""
+    strain = curve["axial_strain"]
+    return float(np.mean(curve["axial_stress"][strain >= strain[-1] - PLATEAU_STRAIN]))
 
 
 def until_regained(curve: Curve) -> Curve:

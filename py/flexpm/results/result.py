@@ -24,12 +24,18 @@ from .solids.state import SolidSnapshot
 
 #: Statuses that mean that a simulation has failed.
 FAILED = ("no_peak", "diverged")
+#: Cracks of a disc whose place says where it begins to split.
+FIRST_CRACKS = 5
 #: Models whose damage energy is that of the contacts between grains alone, and exactly 0 before.
 _SOFTENING = ("flexible", "rigid")
 
 
 #: Keys that only results of solids have.
-OF_SOLIDS = ("tetrahedra", "largest_overlap")
+OF_SOLIDS = ("tetrahedra", "largest_overlap", "second_confinement")
+
+
+#: Column of the record of a box under two lateral pressures: the larger one [Pa].
+_SECOND = "second_confinement"
 
 
 @dataclass
@@ -58,7 +64,9 @@ class Result(Shown):
     elastic_poissons_ratio: float | None = None  #: before the first contact point softens [-]
     peak_stress: float | None = None  #: largest axial stress, what the test calls so [Pa]
     peak_strain: float | None = None  #: axial strain at it [-]
-    confinement: float | None = None  #: lateral pressure at the end [Pa]
+    confinement: float | None = None  #: lateral pressure at the end, the least one [Pa]
+    #: larger lateral pressure at the end of a box under two, see ``curve.csv`` [Pa]
+    second_confinement: float | None = None
     steps: int = 0  #: of the whole test
     step_time: float | None = None  #: median wall time of a step [s]
     tensile_cracks: int = 0  #: cracked points
@@ -84,6 +92,10 @@ class Result(Shown):
     #: deviator from which crack volumetric strain exceeds 2 % of the elastic one [Pa]
     crack_initiation_stress_volumetric: float | None = None
     crack_damage_stress: float | None = None  #: deviator at the extreme of volumetric strain [Pa]
+    null_reasons: Table | None = None  #: why crack thresholds are missing, by their names
+    first_crack_stress: float | None = None  #: axial stress at the first crack of a split disc [Pa]
+    #: median distance of its first cracks from the middle over the radius [-]
+    first_crack_distance: float | None = None
     peak_load: float | None = None  #: largest load of a test between parts [N]
     notch_depth: float | None = None  #: depth of the notch as it was cut [m]
     joint_bend: float | None = None  #: largest distance of a bearing joint from its lines [m]
@@ -109,6 +121,8 @@ class Result(Shown):
     #: factor on the loading rate of the last loading, of a test whose rate is halved [-]
     final_rate: float | None = None
     rates: list[Table] | None = None  #: its loadings: rate, status, peak, steps, wall time
+    #: drop, plateau, largest_strain or equilibrium; None of a run that did not end so
+    ended_by: str | None = None
     status: str = "ok"  #: ok, no_peak, not_quasistatic, diverged or unfinished
     inputs: Table | None = field(default=None, repr=False)  #: all that determined the run
     curve: Curve = field(default_factory=Curve, repr=False)
@@ -122,6 +136,14 @@ class Result(Shown):
         """Whether the simulation failed: it diverged or passed no peak."""
         without = self.status != "ok" and self.peak_stress is None
         return self.status in FAILED or (without and kind_of(self.test).needs_peak)
+
+    @property
+    def without_peak(self) -> str:
+        """What the record came to that has passed no peak, in words."""
+        if self.ended_by != "plateau":
+            return "no strength was found"
+        stress = measures.plateau_stress(self.curve)
+        return f"the axial stress is constant at {1e-6 * stress:.4g} MPa, no strength was found"
 
     @property
     def warnings(self) -> list[str]:
@@ -140,6 +162,9 @@ class Result(Shown):
             found.append(doubts.of_bend(self.joint_bend))
         found += doubts.of_cuts(self.joint_cuts or {})
         found += doubts.of_overlap(self.largest_overlap or 0.0)
+        found += doubts.of_first_cracks(
+            self.first_crack_distance, self.first_crack_stress, self.peak_stress
+        )
         found += doubts.of_grains(self.grains_across)
         found += doubts.of_poissons_ratio(self.poissons_ratio, self.elastic_poissons_ratio)
         found += doubts.of_result(self.status, self.energy_error, mismatch, rate)
@@ -188,6 +213,8 @@ class Result(Shown):
         if len(whole):
             self.steps = int(whole["step"][-1])
             self.confinement = float(whole["confinement"][-1])
+            if _SECOND in whole:
+                self.second_confinement = float(whole[_SECOND][-1])
             self.tensile_cracks = int(whole["tensile_cracks"][-1])
             self.shear_cracks = int(whole["shear_cracks"][-1])
         peak = measures.peak_row(record)
@@ -206,12 +233,26 @@ class Result(Shown):
     def measure_core(self, *, solid: bool, dynamic: bool) -> None:
         """Fill what a laboratory reads off a compressed core; the record gets its volume."""
         record = self.curve
-        self.crack_initiation_stress = core.crack_initiation_stress(record)
-        self.crack_initiation_stress_volumetric = core.crack_initiation_stress_volumetric(
-            record, *self._moduli(dynamic=dynamic), solid=solid
-        )
-        self.crack_damage_stress = core.crack_damage_stress(record, solid=solid)
+        found = core.crack_thresholds(record, *self._moduli(dynamic=dynamic), solid=solid)
+        for name, value in found.stresses.items():
+            setattr(self, name, value)
+        self.null_reasons = found.reasons or None
         self.curve = core.with_volume(record, solid=solid)
+
+    def measure_splitting(self, centre: tuple[float, float], radius: float) -> None:
+        """Fill where and at which stress the first cracks of a disc appear.
+
+        Args:
+            centre: Centre of the disc in its section [m].
+            radius: Radius of the disc [m].
+        """
+        cracks = [crack for crack in self.cracks if crack.mode in MODES]
+        if not cracks:
+            return
+        _, self.first_crack_stress = measures.crack_onset(self.curve, [cracks[0].step])
+        places = [(one.x, one.y if one.z is None else one.z) for one in cracks[:FIRST_CRACKS]]
+        distances = np.linalg.norm(np.subtract(places, centre), axis=1)
+        self.first_crack_distance = float(np.median(distances)) / radius
 
     @property
     def start_moduli(self) -> tuple[float | None, float | None]:

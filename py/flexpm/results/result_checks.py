@@ -19,6 +19,7 @@ _SHARES = ("largest_fragment",)
 #: Measures that are not below zero.
 _NOT_NEGATIVE = (
     *("step_time", "confinement", "unbalanced_ratio", "end_mismatch", "energy_error"),
+    *("second_confinement", "first_crack_stress", "first_crack_distance"),
     *("contact_width", "notch_depth", "joint_bend", "peak_load", "vp", "vs", "b_value_error"),
 )
 #: File with the numbers of a run that has ended.
@@ -27,6 +28,9 @@ FINISHED = "result.json"
 #: that status into result.json.
 SO_FAR, UNFINISHED = "unfinished.json", "unfinished"
 STATUSES = ("ok", "no_peak", "not_quasistatic", "diverged", UNFINISHED)
+#: What ends a test: the deviator falls to the stop ratio, or is constant; the largest strain; a
+#: stage that ends at rest.
+ENDS = ("drop", "plateau", "largest_strain", "equilibrium")
 _KINDS: dict[str, tuple[type, ...]] = {
     "int": (int,),
     "float": (int, float),
@@ -91,6 +95,8 @@ def _is_number(value: object) -> bool:
 def _is_in_range(name: str, value: object) -> bool:
     if name == "status":
         return value in STATUSES
+    if name == "ended_by":
+        return value in (*ENDS, None)
     if not isinstance(value, int | float):
         return True
     if name in _SHARES:

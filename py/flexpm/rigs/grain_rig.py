@@ -39,6 +39,8 @@ _LOOKS_A_CROSSING = 100
 _PRELOAD_SHARE = 0.9
 #: With less damping than this waves do not end within the crossings that balance may take [-].
 SETTLING_DAMPING = 0.2
+#: Velocity of what loads that is to stand and go on, over that of the loading [-].
+STILL = 1e-12
 #: Plates of the membrane on each side, paper Sec. 4.1.
 _MEMBRANE_PLATES = 16
 
@@ -162,6 +164,17 @@ class GrainRig(TestRig):
     def _readings(self) -> Readings:
         return self._recorder
 
+    @property
+    def row_period(self) -> int:
+        """Steps from one row of the record to the next."""
+        return self.built.solver.measurePeriod
+
+    def _limit_speed(self, speed: float, velocity: float) -> None:
+        factor = self._recorder.loading.velocityFactor if self._recorder.loading else 1.0
+        # a motion of the loading that has stood still could not go on
+        now = float(np.clip(speed / factor, -velocity, velocity)) or STILL * velocity
+        self._move(now if self.tension else -now, factor)
+
     def _drive(self, plan: Schedule) -> None:
         recorder, factor = self._recorder, 1.0
         self._require_measure(plan.control)
@@ -169,6 +182,9 @@ class GrainRig(TestRig):
             plan = replace(plan, softening_growth=0.0)
         recorder.stopRatio, recorder.leastPeak = plan.stop_ratio, plan.least_peak
         recorder.minStrain, recorder.maxStrain = plan.min_strain, plan.max_strain
+        recorder.plateauStrain = plan.plateau_strain
+        if plan.plateau_strain:
+            recorder.plateauFrom = len(recorder.rows)
         recorder.state, recorder.peak = TestState.running, 0.0
         self._end_servo()
         if recorder.loading is None:

@@ -253,6 +253,16 @@ class PartRig(PartColumns, PartExcavation):
             self._set_period_for(self._crossing_steps())
 
     @property
+    def may_pull(self) -> bool:
+        """Whether what is driven can pull: held nodes and bonded plates."""
+        frame, plates = self._frame, self.built.solver.plates()
+        return bool(frame.drivenSets) or all(plates[number]["bonded"] for number in frame.driven)
+
+    @property
+    def _stops_at_zero(self) -> bool:
+        return False  # plates separate from the specimen and go on
+
+    @property
     def _ahead(self) -> float:
         """The crosshead of a soft machine goes ahead of the part that loads."""
         if not (machine := self.machine):

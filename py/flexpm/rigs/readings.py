@@ -188,6 +188,11 @@ class RigReadings(ABC):
         """Whether a number is not finite any more."""
 
     @property
+    @abstractmethod
+    def ended_by(self) -> str | None:
+        """What has ended the last stage, see ``Result``; None if nothing that ends a test."""
+
+    @property
     def may_fail_at_once(self) -> bool:
         """Whether the specimen may fail along a plane of which no crack tells before."""
         return False

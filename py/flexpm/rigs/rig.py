@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import asdict, replace
@@ -26,6 +27,7 @@ from ..runs.loading_rate import WAITING_MODELS, Loading, Schedule
 from ..runs.loading_start import LoadingStart
 from ..runs.runner import Runner, Span
 from ..threads import limited
+from .approach import ROWS, TRANSITS, Approach
 from .outcome.calls import Keeper
 from .outcome.folder import save
 from .readings import RigReadings, ended_rising
@@ -42,6 +44,14 @@ AT_REST = 0.001
 NODES_AT_REST = 0.01
 #: Measurements of the balance while a wave crosses the specimen, at least.
 MEASURED_A_CROSSING = 8
+#: Stages that end at rest, or with an error.
+_AT_REST_STAGES = ("confine", "press", "fluid", "settle", "relax", "unload", "cycle", "excavate")
+#: What the state of a record that has ended says.
+_ENDS = {
+    TestState.past_peak: "drop",
+    TestState.plateau_reached: "plateau",
+    TestState.largest_strain_reached: "largest_strain",
+}
 #: Steps, all of them recorded, of the way along the elastic solution.
 _PRELOAD_STEPS = 20
 #: Steps by which the end of a stage may be seen late.
@@ -131,6 +141,9 @@ class TestRig(RigReadings):
     def strain_to(self, strain: float, rate: float = 1.0) -> None:
         """Load or unload at a constant rate until the record's axial strain has come to `strain`.
 
+        Ends that only press do not pull: in a compression test the stage ends at zero stress, with
+        one line on stderr.
+
         Args:
             strain: Where to stop, at the next row of the record [-].
             rate: Factor on the default loading rate [-].
@@ -147,10 +160,13 @@ class TestRig(RigReadings):
         """Load or unload until the record's axial stress has come to `stress`.
 
         Grains are loaded as by ``Loading(kind="waiting")``: damping would drag on what moves
-        steadily, and one part would bear what another one does not.
+        steadily, and one part would bear what another one does not. The loading slows down
+        towards the stress. The stage ends within 0.5 % of it, or within 0.1 % of the largest stress
+        until then if that is more. Ends that only press do not pull: in a compression test the
+        stage ends at zero stress, with one line on stderr.
 
         Args:
-            stress: Where to stop, at the next row of the record [Pa].
+            stress: Axial stress to come to [Pa].
             rate: Factor on the default loading rate [-].
 
         Raises:
@@ -199,6 +215,19 @@ class TestRig(RigReadings):
         if wanted and self.saves_anywhere and not self.diverged:
             start.keep(runner.position)
 
+    @property
+    def ended_by(self) -> str | None:
+        """What has ended the last stage.
+
+        ``drop``: the deviator fell to the stop ratio; ``plateau``: it was constant;
+        ``largest_strain``; ``equilibrium``: the specimen is at rest. None: nothing of these.
+        """
+        if self.diverged or not self.stages:
+            return None
+        if self.stages[-1]["stage"] in _AT_REST_STAGES:
+            return "equilibrium"
+        return _ENDS.get(self._readings.state)
+
     def finish(self) -> None:
         """Bring YADE's objects up to date, for scripts that go on, and save the last state.
 
@@ -222,6 +251,25 @@ class TestRig(RigReadings):
     @abstractmethod
     def _drive(self, plan: Schedule) -> None:
         """Drive the ends by a plan from now on; the first time, take hold and begin the record."""
+
+    @property
+    @abstractmethod
+    def row_period(self) -> int:
+        """Steps from one row of the record to the next."""
+
+    @abstractmethod
+    def _limit_speed(self, speed: float, velocity: float) -> None:
+        """Let the ends go on at a speed, which is at most the velocity times its factor.
+
+        Args:
+            speed: Positive in the sense of the loading [m/step, or m/s with real masses].
+            velocity: At a factor of 1 [the same].
+        """
+
+    @property
+    def may_pull(self) -> bool:
+        """Whether the ends can pull the specimen: grips or bonded plates."""
+        return self.tension
 
     @property
     def _more_balance(self) -> str:
@@ -312,8 +360,22 @@ class TestRig(RigReadings):
 
     def _go_to_strain(self, stage: str, strain: float, rate: float) -> None:
         """A part of a stage: go to a strain, see `strain_to`."""
-        entered = self._stage(partial(self._begin_way, strain, rate), self._is_over)
-        if self.diverged or (entered and not self._is_over()):
+        found: list[Approach] = []
+
+        def over() -> bool:
+            first = self._runner.position.stage_start
+            if not found:
+                rest = strain - self._value_at("axial_strain", first)
+                velocity = self._schedule(Loading(rate, max_strain=abs(rest))).velocity
+                stops = rest < 0.0 and self._stops_at_zero
+                found.append(Approach(self, velocity, None, would_pull=stops))
+            return self._is_over() or found[0].is_over(first)
+
+        entered = self._stage(partial(self._begin_way, strain, rate), over)
+        if entered and not self.diverged and found[0].stopped:
+            if (self.strain - strain) * self.scales().modulus > found[0].tolerance:
+                self._tell_zero(f"{stage}: axial strain = {self.strain:.6g}", f"{strain:.6g}")
+        elif self.diverged or (entered and not self._is_over()):
             raise SimulationError(
                 f"{stage}: axial strain = {self.strain:.6g}, must come to {strain:.6g}; "
                 + ("lower the rate" if self.diverged else "the specimen strains elsewhere")
@@ -322,20 +384,52 @@ class TestRig(RigReadings):
 
     def _go_to_stress(self, stage: str, stress: float, rate: float) -> None:
         """A part of a stage: go to a stress, see `stress_to`."""
-        senses: list[float] = []  # of a stage that is taken up: that with which it began
+        found: list[Approach] = []
 
-        def there() -> bool:
-            if not senses:
-                senses.append(self._sense_to(stress, self._runner.position.stage_start))
-            return senses[0] * (self._readings.stress - stress) >= 0.0
+        def over() -> bool:
+            first = self._runner.position.stage_start
+            if not found:
+                velocity = self._schedule(Loading(rate)).velocity
+                pulls = stress < 0.0 and not self.may_pull
+                found.append(Approach(self, velocity, stress, would_pull=pulls))
+            return found[0].is_over(first) or self._is_over()
 
-        begin = partial(self._begin_stress, stress, rate)
-        entered = self._stage(begin, lambda: there() or self._is_over())
-        if self.diverged or (entered and not there()):
-            raise SimulationError(
-                f"{stage}: axial stress = {self.stress:.6g} Pa, must come to {stress:.6g} Pa; "
-                f"the specimen does not bear it{self._borne}"
-            )
+        entered = self._stage(partial(self._begin_stress, stress, rate), over)
+        if entered and not self.diverged and found[0].stopped:
+            self._tell_zero(f"{stage}: axial stress = 0 Pa", f"{stress:.6g} Pa")
+        elif self.diverged or (entered and not found[0].is_there):
+            raise self._does_not_bear(stage, stress)
+
+    def _does_not_bear(self, stage: str, stress: float) -> SimulationError:
+        return SimulationError(
+            f"{stage}: axial stress = {self.stress:.6g} Pa, must come to {stress:.6g} Pa; "
+            f"the specimen does not bear it{self._borne}"
+        )
+
+    @property
+    def _stops_at_zero(self) -> bool:
+        """Whether a strain is reached only as long as the ends do not pull."""
+        return not self.may_pull
+
+    def _tell_zero(self, reached: str, asked: str) -> None:
+        """Print that a stage has ended at zero stress, short of what it was to come to."""
+        line = f"{reached}, not {asked}: the ends only press, the stage ends at zero stress"
+        print(line, file=sys.stderr, flush=True)
+
+    def approach(self, stress: float, velocity: float) -> None:
+        """Bring the stress nearer to a value, see `Approach`.
+
+        Args:
+            stress: To come to [Pa].
+            velocity: Largest velocity at a factor of 1 [m/step, or m/s with real masses].
+        """
+        self._limit_speed(self._closing_speed(stress), velocity)
+
+    def _closing_speed(self, stress: float) -> float:
+        """Speed of what loads that brings the stress nearer to a value. Deviation D74."""
+        scales = self.scales()
+        time = max(TRANSITS * scales.crossing_steps, ROWS * self.row_period) * yade.O.dt
+        return (stress - self.stress) / scales.modulus * scales.height / time * self._ahead
 
     @property
     def _borne(self) -> str:
@@ -382,7 +476,8 @@ class TestRig(RigReadings):
         plan, sense = self._schedule(Loading(rate, kind)), self._sense_to(stress, yade.O.iter)
         # a stress that falls as it is to fall is no failure
         peak = plan.least_peak if sense > 0.0 else 1e300
-        self._drive(replace(plan, velocity=sense * plan.velocity, least_peak=peak))
+        plan = replace(plan, least_peak=peak, plateau_strain=0.0)
+        self._drive(replace(plan, velocity=sense * plan.velocity))
         return _span(plan)
 
     def _sense_to(self, stress: float, step: int) -> float:
@@ -391,8 +486,12 @@ class TestRig(RigReadings):
 
     def _stress_at(self, step: int) -> float:
         """Stress of the last row of the record up to a step, 0 before the first [Pa]."""
+        return self._value_at("axial_stress", step)
+
+    def _value_at(self, column: str, step: int) -> float:
+        """Value of a column in the last row up to a step, 0 before the first."""
         record = self.record
-        before = record["axial_stress"][record["step"] <= step]
+        before = record[column][record["step"] <= step]
         return float(before[-1]) if len(before) else 0.0
 
     def _at_rest(self) -> bool:

@@ -24,6 +24,7 @@ from .._flexpm import (
     contact_modulus,
     disc_scales,
     end_mismatch,
+    is_plateau,
     ramp_factor,
     rectangle_scales,
     reference_strength,
@@ -33,6 +34,7 @@ from .._flexpm import (
 from ..errors import InputError
 from ..models.sphere_bonds import in_order, tributary_sizes
 from ..models.spheres import SphereModel
+from ..results import measures
 from ..results.record import Curve
 from ..runs.loading_rate import Scales, Schedule
 from ..runs.runner import Runner
@@ -65,6 +67,7 @@ class _State:
     sides: list[int] = field(default_factory=list)  #: on which it acts
     recording: bool = False
     end: list[float] = field(default_factory=list)  #: of the test, as the kernel takes it
+    plateau: tuple[float, int] = (0.0, 0)  #: its strain, and the first row that may belong to it
     zero: tuple[float, float] = (0.0, 0.0)  #: axial and lateral strain that count as zero [-]
     stress: float = 0.0  #: of the last row [Pa]
     strain: float = 0.0  #: of the last row [-]
@@ -191,6 +194,15 @@ class SphereRig(TestRig):
     def _readings(self) -> Readings:
         return self._now
 
+    @property
+    def row_period(self) -> int:
+        """Steps from one row of the record to the next."""
+        return self._now.period
+
+    def _limit_speed(self, speed: float, velocity: float) -> None:
+        now = float(np.clip(speed, -velocity, velocity))
+        self._ends.move(now if self.tension else -now)
+
     def _press(self, pressure: float, ramp: int) -> None:
         if self.solid:
             raise InputError(f"confine: pressure = {pressure:g} Pa, {_NO_PRESSURE}")
@@ -211,6 +223,7 @@ class SphereRig(TestRig):
     def _drive(self, plan: Schedule) -> None:
         now, way = self._now, plan.reference_strain * self._height
         now.end = [plan.stop_ratio, plan.least_peak, plan.min_strain, plan.max_strain]
+        now.plateau = plan.plateau_strain, len(self._curve)
         now.state, now.peak = TestState.running, 0.0
         now.period = max(1, round(way / (abs(plan.velocity) * yade.O.dt * _ROWS)))
         if not now.recording:
@@ -275,7 +288,6 @@ class SphereRig(TestRig):
         now.work += 0.5 * (stress + now.stress) * self._area * (travel - now.travel)
         now.stress, now.strain, now.travel = stress, axial, travel
         now.peak = max(now.peak, stress - confinement)
-        now.state = int(test_state(stress - confinement, now.peak, axial, *now.end))
         self.built.cracks.look()
         tensile, shear = self.built.cracks.counts
         self._curve.append(
@@ -300,6 +312,16 @@ class SphereRig(TestRig):
             end_mismatch=end_mismatch(*forces),
             velocity_factor=1.0,
         )
+        plateau = self._has_plateau
+        now.state = int(test_state(stress - confinement, now.peak, axial, *now.end, plateau))
+
+    @property
+    def _has_plateau(self) -> bool:
+        """Whether the deviator has been constant over the last rows of the loading."""
+        strain, first = self._now.plateau
+        columns = self._curve["axial_strain"], measures.differential_stress(self._curve)
+        axial, deviator = (np.ascontiguousarray(column[first:]) for column in columns)
+        return is_plateau(axial, deviator, strain)
 
     def _strains(self) -> tuple[float, float]:
         """Axial strain in the sense of the loading, lateral strain as Poisson's effect [-]."""

@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..kinds.model_names import BLOCK_MODELS
 from ..kinds.rates import Rates
 from ..kinds.registry import KINDS, OWN, kind_of
-from ..kinds.test_kind import STOP_RATIO
+from ..kinds.test_kind import PLATEAU_STRAIN, STOP_RATIO
 from ..require import Bounds, require_flag, require_number, require_one_of, require_text
 
 #: Factors on the default loading rate that a test may have [-].
@@ -65,9 +65,12 @@ class Loading:
     kind: str = "constant"  #: one of ``LOADINGS``; others than constant are for grains
     static: bool = False  #: begin at the elastic solution; for deformable grains between their ends
     #: axial strain at which the test ends [-]; between parts the displacement over the `length` of
-    #: `drive`: without a length the displacement itself [m], or an angle [rad]; None: the default
+    #: `drive`: without a length the displacement itself [m], or an angle [rad]; None: the default,
+    #: and under a confining pressure also a plateau of the deviator ends it
     max_strain: float | None = None
-    stop_ratio: float = STOP_RATIO  #: part of its peak to which the stress falls in the end [-]
+    #: part of its peak to which the deviator falls in the end [-]: axial stress minus the least
+    #: confining pressure
+    stop_ratio: float = STOP_RATIO
     #: column of the record that is to grow at the rate, whatever the ends must do for it: a gauge,
     #: ``load``, ``lateral_strain``; empty: the ends themselves go at the rate
     control: str = ""
@@ -114,7 +117,7 @@ class Schedule:
     running_shares: tuple[float, float] | None
     reference_strain: float  #: strain of the reference strength [-]
     max_strain: float  #: at which the test ends [-]
-    stop_ratio: float  #: part of its peak to which the stress falls in the end [-]
+    stop_ratio: float  #: part of its peak to which the deviator falls in the end [-]
     least_peak: float  #: stress above the confinement before which no fall counts [Pa]
     steps: int  #: up to the largest strain at the slowest
     likely_steps: int  #: as most tests have
@@ -127,6 +130,8 @@ class Schedule:
     #: largest growth of a plane's traction in a crossing as it begins to soften, where the loading
     #: looks ahead [-]
     softening_growth: float = 0.0
+    #: strain over which a constant deviator ends the test [-]; 0: a plateau does not end it
+    plateau_strain: float = 0.0
 
 
 def prescribed(velocity: float) -> Schedule:
@@ -277,4 +282,5 @@ def schedule(
         # deviation D57
         fastest_descent=reference / crossing_time * scales.height,
         softening_growth=growth,
+        plateau_strain=PLATEAU_STRAIN if confinement > 0.0 and loading.max_strain is None else 0.0,
     )

@@ -35,7 +35,7 @@ class RunInputs:
         rate: Factor on the default loading rate [-], of the first loading where it is halved.
         max_strain: Axial strain at which the test ends [-]; None for a multiple of that of the
             reference strength.
-        stop_ratio: Part of its peak to which the stress falls before the test ends [-].
+        stop_ratio: Part of its peak to which the deviator falls before the test ends [-].
         dynamic: Real masses and time instead of scaled masses and unit steps.
         gravity: Acceleration downwards [m/s2].
         start: How the loading begins, one of ``STARTS``; empty: ``static`` for tension of the

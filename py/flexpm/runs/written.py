@@ -99,4 +99,6 @@ def about(inputs: Table | None) -> Table:
         return {}
     specimen, material = inputs["specimen"], inputs["material"]
     about = {name: inputs[name] for name in ("test", "model", "confinement")}
+    if inputs.get("second_confinement") is not None:
+        about["second_confinement"] = inputs["second_confinement"]
     return {**about, "material": material["name"], "seed": specimen["seed"], "flexpm": __version__}

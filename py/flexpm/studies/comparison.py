@@ -271,7 +271,7 @@ def _row(case: Case) -> Table:
     if case.result is None:
         return row | {"test": case.spec.test, "status": "failed"}
     numbers = case.result.as_dict()
-    hidden = (*_FIRST, "inputs", "warnings", "rates")
+    hidden = (*_FIRST, "inputs", "warnings", "rates", "null_reasons")
     return row | {key: value for key, value in numbers.items() if key not in hidden}
 
 

@@ -43,7 +43,10 @@ _OUTPUTS = ("frames", "film")
 #: Keys of a packing.
 _PACKED = (*input_names.SIZE_NAMES, *input_names.PACKING)
 #: Entries of result.json that are no inputs and no measures, or change from machine to machine.
-NOT_MEASURES = ("flexpm", "yade", "test", "model", "material", "seed", "confinement", "step_time")
+NOT_MEASURES = (
+    *("flexpm", "yade", "test", "model", "material", "seed", "confinement", "second_confinement"),
+    "step_time",
+)
 #: Exit codes of a job that would end the same way again.
 _FINAL = (0, 2, 3)
 _OUTCOME = "outcome.json"

@@ -50,3 +50,40 @@ def test_a_confined_test_ends_by_the_stress_above_the_confinement(
     # by the whole stress it would have gone on
     assert result.curve["axial_stress"][-1] > stop_ratio * (largest[-1] + PRESSURE)
     assert strain[-1] < 0.055
+
+
+#: Specimens of both dimensions and the confined test of each.
+CONFINED = {
+    "plane": ("biaxial", lambda: flexpm.Specimen.rectangle(0.012, 0.024, thickness=0.01, seed=1)),
+    "space": ("triaxial", lambda: flexpm.Specimen.cylinder(0.01, 0.016, seed=1)),
+}
+
+
+def plateau_rows(result: flexpm.Result, end: int) -> np.ndarray:
+    """Deviators of the rows before `end` within half a per cent of strain."""
+    strain = result.curve["axial_strain"][:end]
+    return differential_stress(result.curve)[:end][strain > strain[-1] - 0.005]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("where", CONFINED)
+def test_a_confined_test_ends_on_a_plateau_unless_a_strain_is_given(where):
+    test, made = CONFINED[where]
+    specimen = made()
+    asked = {"model": "rigid", "confinement": 60e6, "rate": 8.0}
+    result = flexpm.run(test, specimen, **asked)
+    assert result.ended_by == "plateau"
+    assert result.curve["axial_strain"][-1] > 0.005
+    last = plateau_rows(result, len(result.curve))
+    assert np.ptp(last) <= 0.02 * last.max()
+    # and not a row earlier
+    before = plateau_rows(result, len(result.curve) - 1)
+    strain = result.curve["axial_strain"]
+    rows = int(np.argmax(strain > strain[-2] - 0.005)) - 1
+    before = np.append(before, differential_stress(result.curve)[rows])
+    assert np.ptp(before) > 0.02 * before.max()
+    further = 1.2 * strain[-1]
+    longer = flexpm.run(test, specimen, max_strain=further, **asked)
+    assert longer.ended_by == "largest_strain"
+    assert longer.curve["axial_strain"][-1] >= further
+    assert np.array_equal(longer.curve.array[: len(strain)], result.curve.array)

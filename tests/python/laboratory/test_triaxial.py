@@ -9,6 +9,8 @@ import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.report.curves import _caption
+from flexpm.report.tables import test_text
 from flexpm.results.result import Result
 
 yade = pytest.importorskip("yade")  # found once flexpm is imported
@@ -139,6 +141,12 @@ def test_the_command_and_its_repetition(tmp_path, capsys, monkeypatch):
     assert "crack initiation" in told and "granites 0.50 to 0.54" in told
     read = Result.read("box")
     assert (read.confinement, read.inputs["second_confinement"]) == (5e6, 9e6)
+    assert read.second_confinement == 9e6
+    assert set(read.curve["second_confinement"]) == {9e6}
+    assert set(read.curve["confinement"]) == {5e6}
+    assert "confinement              5.000 and 9.000 MPa" in told
+    assert "confinement 5 and 9 MPa" in _caption(read)
+    assert test_text(read).startswith("triaxial under 5 and 9 MPa, ")
     assert "crack initiation" in (tmp_path / "box" / "report.html").read_text()
     assert cli.main(["rerun", "box", "--quiet", "--out", "again", "--no-report"]) in (0, 3)
     assert "the same as in" in capsys.readouterr().out

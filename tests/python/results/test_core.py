@@ -35,6 +35,18 @@ def curve(*, solid, confinement=0.0, own_lateral=None, start=0.0, widening=2.0, 
     return Curve.from_array(np.column_stack([columns[name] for name in COLUMNS]))
 
 
+NAMES = ("crack_initiation_stress", "crack_initiation_stress_volumetric", "crack_damage_stress")
+
+
+def thresholds(record, modulus=E, ratio=NU, *, solid=True):
+    """Deviators of initiation by cracks and by volume, and of damage; None with a reason each."""
+    found = core.crack_thresholds(record, modulus, ratio, solid=solid)
+    assert tuple(found.stresses) == NAMES
+    assert set(found.reasons) == {name for name, one in found.stresses.items() if one is None}
+    assert all(found.reasons.values())
+    return tuple(found.stresses.values())
+
+
 @pytest.mark.parametrize("solid", [False, True])
 @pytest.mark.parametrize(("confinement", "start"), [(0.0, 0.0), (8e6, 0.0), (8e6, 20e6)])
 def test_readings_of_a_drawn_curve(solid, confinement, start):
@@ -42,8 +54,8 @@ def test_readings_of_a_drawn_curve(solid, confinement, start):
     row = PEAK / 600
     # the second of 200 cracks, of which 1 % counts, is there at 1.5 of 200
     expected = start + PEAK * (0.25 + 0.75 * 1.5 / 200)
-    assert core.crack_initiation_stress(record) == pytest.approx(expected, abs=1.01 * row)
-    found = core.crack_initiation_stress_volumetric(record, E, NU, solid=solid)
+    begun, found, dilates = thresholds(record, solid=solid)
+    assert begun == pytest.approx(expected, abs=1.01 * row)
     # 2 (s - 60)^2 / 60^2 = 0.02 (1 - n nu) s / 120
     slope = 0.02 * (1.0 - (2.0 if solid else 1.0) * NU) / PEAK
     s = np.linspace(WIDENS, PEAK, 600001)
@@ -51,9 +63,8 @@ def test_readings_of_a_drawn_curve(solid, confinement, start):
     assert found == pytest.approx(start + s[np.argmax(passes)], abs=1.01 * row)
     # where the sum's slope is 0: 2 * 2 (s - 60) / 60^2 = (1 - n nu) / 120
     damage = WIDENS + (1.0 - (2.0 if solid else 1.0) * NU) / PEAK * (PEAK - WIDENS) ** 2 / 4.0
-    assert core.crack_damage_stress(record, solid=solid) == pytest.approx(
-        start + damage, abs=1.01 * row
-    )
+    assert dilates == pytest.approx(start + damage, abs=1.01 * row)
+    assert begun <= found <= dilates
 
 
 def test_the_volume_of_elasticity():
@@ -79,30 +90,44 @@ def test_the_moduli_of_the_start_are_those_of_the_first_rows():
     assert measures.start_moduli(softens.until(0)) == (None, None)
 
 
-def test_what_a_curve_does_not_tell_is_none():
+def test_what_a_curve_does_not_tell_is_none_with_a_reason():
     shrinks = curve(solid=True, widening=0.0)
-    assert core.crack_damage_stress(shrinks, solid=True) is None
-    assert core.crack_initiation_stress_volumetric(shrinks, E, NU, solid=True) is None
-    rising = shrinks.until(500)
-    assert core.crack_initiation_stress(rising) is None
-    assert core.crack_damage_stress(rising, solid=True) is None
-    assert core.crack_initiation_stress_volumetric(rising, E, NU, solid=True) is None
+    assert thresholds(shrinks)[1:] == (None, None)
+    reasons = core.crack_thresholds(shrinks, E, NU, solid=True).reasons
+    assert "shrinks up to the peak" in reasons["crack_damage_stress"]
+    assert "do not widen" in reasons["crack_initiation_stress_volumetric"]
+    assert thresholds(shrinks.until(500)) == (None, None, None)
     unknown = curve(solid=True, own_lateral=lambda axial: np.full(len(axial), np.nan))
-    assert core.crack_damage_stress(unknown, solid=True) is None
-    assert core.crack_initiation_stress_volumetric(unknown, E, NU, solid=True) is None
-    assert core.crack_initiation_stress_volumetric(shrinks, None, NU, solid=True) is None
+    assert thresholds(unknown)[1:] == (None, None)
+    assert thresholds(curve(solid=True), modulus=None)[1] is None
     whole = shrinks.array.copy()
     whole[:, COLUMNS.index("tensile_cracks")] = 0.0
-    assert core.crack_initiation_stress(Curve.from_array(whole)) is None
+    assert thresholds(Curve.from_array(whole))[0] is None
     empty = Curve()
-    assert core.crack_initiation_stress(empty) is None
-    assert core.crack_damage_stress(empty, solid=False) is None
+    assert thresholds(empty, solid=False) == (None, None, None)
     assert len(core.elastic_volumetric_strain(empty, E, NU, solid=False)) == 0
+
+
+@pytest.mark.parametrize("solid", [False, True])
+def test_a_burst_of_cracks_has_its_thresholds_in_order(solid):
+    """A specimen that dilates within one burst: cracks have widened it by then."""
+    record = curve(solid=solid, widening=0.0)
+    columns = {name: record[name].copy() for name in COLUMNS}
+    row = 550  # below the peak: the stress falls by 5 MPa, then rises to the peak
+    ways = 2.0 if solid else 1.0
+    # first by 0.2 % of the elastic strain, then by more
+    for before, widens in ((0, 3e-6), (1, 5e-5), (2, 1e-2)):
+        columns["lateral_strain"][row + before :] += widens / ways
+        columns["axial_stress"][row + before] -= 5e6 * before
+    burst = Curve.from_array(np.column_stack([columns[name] for name in COLUMNS]))
+    _, widens, dilates = thresholds(burst, solid=solid)
+    assert widens is not None and dilates is not None
+    assert widens <= dilates
+    assert dilates == pytest.approx(PEAK * row / 600, rel=0.01)
 
 
 def test_a_spike_that_passes_does_not_count():
     record = curve(solid=True)
     whole = record.array.copy()
     whole[100, COLUMNS.index("lateral_strain")] *= 1.5
-    found = core.crack_initiation_stress_volumetric(Curve.from_array(whole), E, NU, solid=True)
-    assert found == core.crack_initiation_stress_volumetric(record, E, NU, solid=True)
+    assert thresholds(Curve.from_array(whole))[1] == thresholds(record)[1]

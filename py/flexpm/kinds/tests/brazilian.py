@@ -74,6 +74,7 @@ KIND = TestKind(
     falls_freely=True,
     regains=True,
     pulled=True,
+    splits=True,
     # slopes of the plates' closure
     no_constants=("youngs_modulus", "poissons_ratio", "elastic_poissons_ratio"),
     words=Words(

@@ -17,7 +17,8 @@ STATUS = {
         "no_peak",
         False,
         "The stress has not fallen by 10 % from its largest value, so there is no strength.",
-        "If the curve still rises at its end, raise --max-strain. If it has bent over and creeps "
+        "If the curve still rises at its end, raise --max-strain. If the stress is constant there "
+        "(ended_by is plateau), it is a residual strength. If the curve has bent over and creeps "
         "on, parts go on bearing: take more grains. Elastic constants can be used.",
     ),
     "not_quasistatic": Status(

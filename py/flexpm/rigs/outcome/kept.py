@@ -256,7 +256,7 @@ class KeptTest:
         result = result_so_far(rig, inputs)
         result.step_time, result.resumed_at = self.runner.step_time, self._resumed_at
         if ended:
-            result.status = UNFINISHED
+            result.status, result.ended_by = UNFINISHED, None
         assert result.snapshot is not None
         self._lines = lines_in(rig, result.snapshot)
         write_numbers(self._folder, result)

@@ -14,6 +14,7 @@ from ...results.cracks import count_by_pair, cracks_from_snapshot
 from ...results.emission import EventRule, event_rule
 from ...results.result import Result
 from ...results.solids.state import SolidSnapshot
+from ...specimens.kernel_input import Circle
 from ...specimens.space.specimen import SolidSpecimen
 from ...specimens.specimen import Specimen
 from ..readings import RigReadings
@@ -46,7 +47,7 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
     )
     if kind_of(test).quasi_static:
         result.grains_across = grains_across(built.specimen)
-    result.curve = rig.record
+    result.curve, result.ended_by = rig.record, rig.ended_by
     kinds = [kind["name"] for kind in result.material.get("minerals", ())]
     result.cracks = cracks_from_snapshot(snapshot, result.curve, kinds)
     result.cracks_by_pair = count_by_pair(result.cracks)
@@ -62,6 +63,10 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
     )
     if kind_of(test).is_core:
         result.measure_core(solid=rig.solid, dynamic=built.dynamic)
+    if kind_of(test).splits:
+        outline = getattr(built.specimen, "outline", None)
+        centre = (outline.x, outline.y) if isinstance(outline, Circle) else (0.0, 0.0)
+        result.measure_splitting(centre, 0.5 * built.specimen.dimensions["diameter"])
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
     if isinstance(snapshot, SolidSnapshot):

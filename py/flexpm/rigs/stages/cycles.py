@@ -139,8 +139,22 @@ class PartCycles(PartPressures):
             self._go_to_strain(stage, value / self._frame.length, rate)
             return
         near = value - _LAST_PART * (value - before)
-        self._go_to_stress(stage, near / self._frame.area, rate)
+        self._pass_stress(stage, near / self._frame.area, rate)
         self._steer(stage, value / self._frame.area, _TO_REST, until="there", rate=rate)
+
+    def _pass_stress(self, stage: str, stress: float, rate: float) -> None:
+        """A part of a stage: load until the stress has passed a value, at whatever speed."""
+        senses: list[float] = []  # that with which the stage began, also if it is resumed
+
+        def there() -> bool:
+            if not senses:
+                senses.append(self._sense_to(stress, self._runner.position.stage_start))
+            return senses[0] * (self.stress - stress) >= 0.0
+
+        begin = partial(self._begin_stress, stress, rate)
+        entered = self._stage(begin, lambda: there() or self._is_over())
+        if self.diverged or (entered and not there()):
+            raise self._does_not_bear(stage, stress)
 
     def _end_at(self, stage: str, by: str, value: float) -> None:
         """End at rest at a load, or where the parts are."""
@@ -172,10 +186,7 @@ class PartCycles(PartPressures):
 
     def _require_bearing(self, stage: str, by: str, least: float) -> None:
         """Refuse loads that pull by plates that only press."""
-        frame, plates = self._frame, self.built.solver.plates()
-        if by != "load" or least >= 0.0 or frame.drivenSets:
-            return
-        if not all(plates[number]["bonded"] for number in frame.driven):
+        if by == "load" and least < 0.0 and not self.may_pull:
             raise InputError(
                 f"{stage}: load = {least:g} N, must not be below 0: {self._driven_part} only "
                 "presses; lay it with bonded=True"

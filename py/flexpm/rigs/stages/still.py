@@ -16,7 +16,7 @@ from ...models.grains import Model
 from ...models.options import DAMPING
 from ...runs.loading_rate import WAITING_MODELS, Loading, Scales, Schedule, prescribed
 from ...runs.runner import Span
-from ..grain_rig import SETTLING_DAMPING, GrainRig
+from ..grain_rig import SETTLING_DAMPING, STILL, GrainRig
 from ..parts import HeldNodes, Part, RigPart, in_words
 from ..readings import Balance
 from ..rig import AT_REST, MEASURED_A_CROSSING, NODES_AT_REST
@@ -26,11 +26,6 @@ from ..statics.elastic_state import PartStatics
 NO_ENERGY = 1e-7
 #: A load is at its value within this part of it, or of the largest, where the value is 0 [-].
 _LOAD_AT_REST = 0.5 * AT_REST
-#: Velocity of what is steered and is where it is to be, over that of the loading [-]: a motion of
-#: the loading that has stood still could not go on.
-_STILL = 1e-12
-#: Crossings in which a load that is steered to a value comes nearer to it by a factor of e.
-_STEERING_CROSSINGS = 4.0
 #: Tag of YADE's scene with the damping that is to come back: a saved scene has it, too.
 _DAMPING_TAG = "flexpm_damping"
 
@@ -173,7 +168,7 @@ class PartStill(PartStatics, GrainRig):
         way = 0.0 if stress is None else abs(stress - self.stress) / scales.modulus * scales.height
         way *= self._ahead
         back = math.ceil(2.0 * way / (rate * plan.fastest * plan.velocity * yade.O.dt))
-        self._drive(prescribed(_STILL * plan.velocity))
+        self._drive(prescribed(STILL * plan.velocity))
         if damped:
             self._damp()
         span = self._span_of(crossings, 0.5 * crossings)
@@ -185,11 +180,10 @@ class PartStill(PartStatics, GrainRig):
 
     def _steering(self, stress: float, rate: float) -> float:
         """Velocity of the driven parts that brings the load nearer to a value. Deviation D74."""
-        scales, plan = self.scales(), self._steering_plan()
-        time = _STEERING_CROSSINGS * scales.crossing_steps * yade.O.dt
-        wanted = (stress - self.stress) / scales.modulus * scales.height / time * self._ahead
+        plan = self._steering_plan()
         fastest = rate * plan.fastest * plan.velocity
-        return float(np.clip(wanted, -fastest, fastest)) or _STILL * plan.velocity
+        wanted = self._closing_speed(stress)
+        return float(np.clip(wanted, -fastest, fastest)) or STILL * plan.velocity
 
     def _is_there(self, stress: float) -> bool:
         """Whether the load is within 0.1 % of a value, or of the largest for the value 0."""
