@@ -39,6 +39,8 @@ class Tessellation:
     @property
     def disc_of_cell(self) -> IntArray: ...
     @property
+    def laguerre(self) -> IntArray: ...
+    @property
     def shared_edges(self) -> IntArray: ...
     @property
     def boundary_edges(self) -> IntArray: ...
@@ -256,6 +258,7 @@ def cells_of_file(
     joints: IntArray,
     centres: FloatArray,
     radii: FloatArray,
+    laguerre: IntArray,
 ) -> Tiling: ...
 def grain_meshes(
     tessellation: Tessellation, centres: FloatArray, radii: FloatArray, kind: str

@@ -162,8 +162,9 @@ def _canonical(cell: str) -> str:
 def _numbers(package: Path | None, names: list[str]) -> dict[str, int]:
     """Results number of each run."""
     kinds = [STUDY_KIND if name.startswith("study") else tuple(name.split()) for name in names]
-    script = "from flexpm.runs.run_spec import results_number\n"
-    script += f"print(*(results_number(*kind) for kind in {kinds}))"
+    script = "from flexpm.materials import load; from flexpm.runs.run_spec import RunSpec\n"
+    script += "runs = ((t, {'model': m}, load(None, m)) for t, m in " + f"{kinds})\n"
+    script += "print(*(RunSpec.from_options(*run).results for run in runs))"
     return dict(zip(names, map(int, _ask(package, script).split()), strict=True))
 
 

@@ -8,12 +8,14 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 
 from ..files import Table
+from ..kinds.model_names import BLOCK_MODELS
 from ..kinds.option import Value
 from ..kinds.registry import kind_of
 from ..kinds.test_kind import STOP_RATIO, TestKind
 from ..materials.mixing import is_brittle
 from ..models.options import DAMPING, GRAIN_MODELS, local_damping
 from ..specimens.space.any_spec import AnySpec, is_solid
+from ..specimens.space.spec import SolidSpec
 from .loading_rate import WAITING_MODELS
 
 
@@ -102,6 +104,14 @@ class RunInputs:
     def is_solid(self) -> bool:
         """Whether the specimen is one of space."""
         return is_solid(self.specimen.kind)
+
+    @property
+    def has_edge_normals(self) -> bool:
+        """Whether bonds have the normals of their edges: of cells other than Laguerre's (D104)."""
+        if isinstance(self.specimen, SolidSpec) or self.model not in BLOCK_MODELS:
+            return False
+        notched = self.kind.cut is not None and bool(self.options["notch"])
+        return notched or not self.specimen.is_laguerre
 
     @property
     def options(self) -> dict[str, Value]:

@@ -28,6 +28,12 @@ __all__ = ["ELASTIC", "TESTS", "RunSpec"]
 #: Number of the way in which keys are made. A field that gets another default needs another number:
 #: keys leave defaults out.
 SCHEMA = 1
+#: Part of the results number of runs with cells that are no whole Laguerre cells; 1: their bonds
+#: have the normals of the shared edges (D104).
+_EDGE_NORMALS = 1
+#: Part of the results number of runs that ``--dynamic`` gives real masses; 1: their loading is a
+#: boundary condition, and no quasi-static plan sets velocities of grains.
+_REAL_MASSES = 1
 
 
 @dataclass(frozen=True)
@@ -107,7 +113,7 @@ class RunSpec(RunInputs):
     @property
     def results(self) -> int:
         """Number of the results, see ``results_number``."""
-        return results_number(self.test, self.model, solid=self.is_solid)
+        return results_of(self)
 
     def key(self, results: int | None = None) -> str:
         """Name of the run: a short hash of what differs from the defaults.
@@ -147,10 +153,40 @@ class RunSpec(RunInputs):
         return keys
 
 
-def results_number(test: str, model: str, *, solid: bool = False) -> int:
-    """Number that tells results of a test and model from those before they changed."""
+def results_number(
+    test: str,
+    model: str,
+    *,
+    solid: bool = False,
+    edge_normals: bool = False,
+    dynamic: bool = False,
+) -> int:
+    """Number that distinguishes results of a test and model from those before they changed.
+
+    It is the sum of the number of the test and model and of parts for some runs only: it rises
+    when any of them does.
+
+    Args:
+        test: Name of the test.
+        model: Name of the model.
+        solid: Whether the specimen is 3D.
+        edge_normals: Whether it has bonds with normals of edges, see ``RunInputs``.
+        dynamic: Whether ``--dynamic`` gives it real masses.
+    """
     kind = kind_of(test)
-    return (kind.solid_results if solid else kind.results).get(model, 1)
+    number = (kind.solid_results if solid else kind.results).get(model, 1)
+    return number + _EDGE_NORMALS * edge_normals + _REAL_MASSES * dynamic
+
+
+def results_of(run: RunInputs) -> int:
+    """Number of the results of a run, see ``results_number``."""
+    return results_number(
+        run.test,
+        run.model,
+        solid=run.is_solid,
+        edge_normals=run.has_edge_normals,
+        dynamic=run.dynamic and not run.kind.dynamic,
+    )
 
 
 def described(material: Material, model: str) -> Table:

@@ -119,6 +119,16 @@ class SpecimenSpec:
         given = (self.discs, self.outline, self.minerals, self.cells, self.joints, self.strengths)
         return all(one is None for one in given)
 
+    @property
+    def is_sawn(self) -> bool:
+        """Whether its outline was sawn out of a packing."""
+        return (self.outline is not None and self.discs is None) or self.kind == "half-disc"
+
+    @property
+    def is_laguerre(self) -> bool:
+        """Whether all cells are whole Laguerre cells of discs: none was given, sawn or cut."""
+        return self.cells is None and self.joints is None and not self.is_sawn
+
     def with_joints(self, lines: Lines, origin: tuple[float, float] | None = None) -> SpecimenSpec:
         """The same specimen, cut by more joints, of a map if there is an origin.
 
@@ -202,9 +212,8 @@ class SpecimenSpec:
 
     def require_discs(self, model: str) -> None:
         """Refuse grains that are no discs, for a model of discs."""
-        sawn = (self.outline is not None and self.discs is None) or self.kind == "half-disc"
         self.require_alike(model)
-        kinds = {"given cells": self.cells, "sawn grains": sawn or None}
+        kinds = {"given cells": self.cells, "sawn grains": self.is_sawn or None}
         what = next((kind for kind, one in kinds.items() if one is not None), "")
         if what:
             raise InputError(

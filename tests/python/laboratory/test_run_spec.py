@@ -28,6 +28,7 @@ from flexpm.runs.run_spec import (
     TESTS,
     RunSpec,
     described,
+    split,
 )
 from flexpm.specimens.space.any_spec import SIZES, is_solid
 from flexpm.specimens.space.spec import SolidSpec
@@ -119,9 +120,12 @@ def specs(draw) -> RunSpec:
     )
 
 
+PLAIN = {"name": "rock", "cohesion": 3e7}
+
+
 def plain(test: str = "uniaxial", **changes: Any) -> RunSpec:
     kind = "disc" if test == "brazilian" else "rectangle"
-    return RunSpec(test, SpecimenSpec(kind), {"name": "rock", "cohesion": 3e7}, **changes)
+    return RunSpec(test, SpecimenSpec(kind), PLAIN, **changes)
 
 
 @given(specs())
@@ -196,6 +200,51 @@ def test_other_results_or_another_schema_change_keys(monkeypatch):
     assert spec.key() == before
     monkeypatch.setattr(run_spec, "SCHEMA", run_spec.SCHEMA + 1)
     assert spec.key() != before
+
+
+PACKED = SpecimenSpec()
+GIVEN = {"diameters": None, "porosity": None, "seed": None, "discs": "0" * 16, "outline": "1" * 16}
+#: Specimens with cells that were given, sawn or cut.
+OTHERS = {
+    "given cells": SpecimenSpec(**GIVEN, cells="2" * 16),
+    "sawn": SpecimenSpec(outline="1" * 16),
+    "cut": SpecimenSpec(joints="3" * 16, joint_names=("excavation:hole",)),
+}
+
+
+@pytest.mark.parametrize("specimen", [PACKED, SpecimenSpec(**GIVEN), *OTHERS.values()])
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_results_of_cells_that_are_no_whole_laguerre_cells_are_others(specimen, model):
+    """Keys of packings stay."""
+    spec = RunSpec("tension", specimen, PLAIN, model)
+    others = specimen in OTHERS.values()
+    number = kind_of("tension").results[model]
+    assert spec.results == number + others
+    assert (spec.key(number) in spec.older_keys()) == others
+    assert (spec.key() == spec.key(number)) != others
+
+
+def test_results_of_inner_particles_are_the_same():
+    number = kind_of("tension").results["inner"]
+    for specimen in (PACKED, OTHERS["given cells"], OTHERS["sawn"]):
+        assert RunSpec("tension", specimen, PLAIN, "inner").results == number
+
+
+def test_results_of_tests_that_cut_notches_are_others():
+    beam = SpecimenSpec(width=0.2, height=0.04)
+    for test, shape in (("punch", SpecimenSpec()), ("bending", beam)):
+        found = [RunSpec(test, shape, PLAIN, **split({"notch": one})) for one in (0.0, 0.01)]
+        number = kind_of(test).results["flexible"]
+        assert [one.results for one in found] == [number, number + 1]
+    sawn = RunSpec("scb", SpecimenSpec("half-disc"), PLAIN)
+    assert sawn.results == kind_of("scb").results["flexible"] + 1
+
+
+def test_results_with_real_masses_are_others():
+    assert plain(dynamic=True).results == plain().results + 1
+    sawn = RunSpec("uniaxial", OTHERS["sawn"], PLAIN, dynamic=True)
+    assert sawn.results == plain().results + 2
+    assert plain("sonic").results == kind_of("sonic").results["flexible"]
 
 
 def test_each_input_changes_the_key_but_a_name_does_not():

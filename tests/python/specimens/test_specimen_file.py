@@ -291,3 +291,27 @@ def test_any_change_of_a_solid_is_refused_in_one_line_or_leaves_one(
         assert "\n" not in str(error)
         return
     assert np.sum(found.cells.volumes) == pytest.approx(found.outline().volume, rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_marks_of_whole_cells_are_kept_and_older_files_have_none_but_of_packings(
+    contents, tmp_path, kind
+):
+    path = tmp_path / "it.json"
+    marks = made(kind).tessellation.laguerre
+    assert np.array_equal(load(contents[kind], path).tessellation.laguerre, marks)
+    whole = kind in ("packed", "disc", "given", "hidden", "minerals")
+    assert marks.all() == whole and ("laguerre" in contents[kind]) != whole
+    assert marks.any() == (kind not in ("own", "within"))
+    older = {key: value for key, value in contents[kind].items() if key != "laguerre"}
+    assert (load(older, path).tessellation.laguerre == whole).all()
+
+
+def test_marks_that_cannot_be_are_refused(contents, tmp_path):
+    for kind, marks, message in (
+        ("own", [0, 2], "laguerre"),
+        ("own", [0], "laguerre = 1, must be one for each of 2 cells"),
+        ("packed", [0] * len(contents["packed"]["cells"]), "laguerre = 0, must be 1"),
+    ):
+        with pytest.raises(InputError, match=message):
+            load(contents[kind] | {"laguerre": marks}, tmp_path / "it.json")

@@ -117,6 +117,14 @@ namespace {
 		return copied(areas, 0, Access::readOnly);
 	}
 
+	py::object laguerreOf(const Tessellation& tessellation)
+	{
+		std::vector<int> marks;
+		for (int cell = 0; cell < tessellation.cells(); ++cell)
+			marks.push_back(tessellation.is_laguerre(cell));
+		return copied(marks, 0);
+	}
+
 	std::shared_ptr<GrainMeshes> grainMeshes(const Tessellation& tessellation, py::object centres, py::object radii, const std::string& kind)
 	{
 		auto result = std::make_shared<GrainMeshes>();
@@ -134,6 +142,10 @@ namespace {
 		        .add_property("cell_offsets", integers<int, &T::cell_offsets>, "Cell i owns cell_vertices[cell_offsets[i]:cell_offsets[i + 1]].")
 		        .add_property("cell_vertices", integers<int, &T::cell_vertices>, "Vertex indices, counter-clockwise, cell after cell.")
 		        .add_property("disc_of_cell", integers<int, &T::disc_of_cell>, "Disc of each cell.")
+		        .add_property(
+		                "laguerre",
+		                laguerreOf,
+		                "Per cell: 1 for the whole Laguerre cell of its disc, 0 for one that was given, sawn, cut or split (a copy).")
 		        .add_property("shared_edges", integers<flexpm::SharedEdge, &T::shared_edges>, "Rows cell_a < cell_b, start, end; cell_a on the left.")
 		        .add_property("boundary_edges", integers<flexpm::BoundaryEdge, &T::boundary_edges>, "Rows cell, start, end, side of the outline.")
 		        .add_property("merged_vertices", integers<int, &T::merged_vertices>, "Vertices into which short edges were collapsed.")

@@ -77,7 +77,8 @@ namespace {
 		return py::make_tuple(std::make_shared<Tiling>(given.tiling), arrays(given.rings));
 	}
 
-	std::shared_ptr<Tiling> cellsOfFile(py::object vertices, py::list cells, py::object sides, py::object joints, py::object centres, py::object radii)
+	std::shared_ptr<Tiling>
+	cellsOfFile(py::object vertices, py::list cells, py::object sides, py::object joints, py::object centres, py::object radii, py::object laguerre)
 	{
 		flexpm::StoredCells stored;
 		stored.vertices = points(vertices, "vertices");
@@ -88,6 +89,8 @@ namespace {
 		stored.sides  = edges(sides, "sides");
 		stored.joints = edges(joints, "joints");
 		stored.discs  = discs(centres, radii);
+		const InputArray<int> marks(laguerre, 1, "laguerre");
+		stored.laguerre.assign(marks.data(), marks.data() + marks.size(0));
 		return std::make_shared<Tiling>(flexpm::cells_of_file(stored));
 	}
 
@@ -164,8 +167,8 @@ void register_tiling_bindings()
 	        "tell takes the number of lines done. Also rows length, cut, taken, outside [m] and contacts, joint that has taken, one per line.");
 	py::def("cells_of_file",
 	        cellsOfFile,
-	        (py::arg("vertices"), py::arg("cells"), py::arg("sides"), py::arg("joints"), py::arg("centres"), py::arg("radii")),
-	        "Cells as they were stored; sides and joints are rows start, end, number.");
+	        (py::arg("vertices"), py::arg("cells"), py::arg("sides"), py::arg("joints"), py::arg("centres"), py::arg("radii"), py::arg("laguerre")),
+	        "Cells as they were stored; sides and joints are rows start, end, number; laguerre is that of the Tessellation.");
 }
 
 } // namespace flexpm_bindings

@@ -33,7 +33,7 @@ from ...runs.asked import write_report
 from ...runs.loading_rate import WAITING_MODELS, rates_of
 from ...runs.output import BEGUN, RESULT, is_of_flexpm, refuse_other_kind
 from ...runs.run_inputs import RunInputs
-from ...runs.run_spec import described, results_number
+from ...runs.run_spec import described, results_of
 from ...runs.written import FILES, write_files
 from ...specimens.files import given
 from ..readings import RigReadings, ended_rising
@@ -86,7 +86,7 @@ class OwnInputs(RunInputs):
     @property
     def results(self) -> int:
         """Number of the results, see ``results_number``."""
-        return results_number(self.test, self.model)
+        return results_of(self)
 
 
 def inputs_before(built: Model | SphereModel) -> OwnInputs:

@@ -83,6 +83,7 @@ _KEYS: dict[str, Rule] = {
     "vertices": list_of(row_of(2), 3),
     "cells": list_of(list_of(is_count, 3), 1),
     "discs": list_of(row_of(3), 1),
+    "laguerre": list_of(lambda value: is_count(value) and value in (0, 1), 1),
     "sides": list_of(row_of(3, is_count)),
     "joints": list_of(row_of(3, is_count)),
     "lines": lambda value: isinstance(value, Mapping),
@@ -90,7 +91,7 @@ _KEYS: dict[str, Rule] = {
     "strengths": or_none(list_of(is_positive)),
 }
 #: Keys that files of earlier versions lack, or that not all have.
-_LATER = ("lines", "cuts", "mineral_names")
+_LATER = ("lines", "cuts", "mineral_names", "laguerre")
 #: What each field of the spec holds; sizes and numbers of a packing it checks itself.
 _SPEC: dict[str, Rule] = {
     "kind": is_text,
@@ -111,8 +112,8 @@ def require_types(content: Table) -> None:
     """
     require_rules(content, _KEYS, _LATER)
     cells = len(content["cells"])
-    for name in ("discs", "minerals", "grains"):
-        if content[name] is not None and len(content[name]) != cells:
+    for name in ("discs", "minerals", "grains", "laguerre"):
+        if content.get(name) is not None and len(content[name]) != cells:
             raise refuse(f"{name} = {len(content[name])}, must be one for each of {cells} cells")
     if not all(row[2] > 0.0 for row in content["discs"]):
         raise refuse("radius of a disc <= 0 m, must be > 0")
@@ -153,6 +154,8 @@ def require_sense(found: Table, sides: IntArray, joints: int, tiling: Tiling) ->
     _require_cells(found)
     _require_joints(found, joints, tiling)
     _require_factors(found)
+    if found["spec"].is_laguerre and not tiling.tessellation.laguerre.all():
+        raise refuse("laguerre = 0, must be 1 for all cells of a packing")
 
 
 def _require_outline(found: Table) -> None:

@@ -43,9 +43,9 @@ def fields_of(specimen: Mapping[str, Any]) -> Table:
     corners, ends = cells.cell_vertices.tolist(), cells.cell_offsets.tolist()
     edges, found = cells.shared_edges, specimen["edge_joints"]
     joints = [] if found is None else np.column_stack((edges[:, 2:], found))[found >= 0].tolist()
-    names = specimen["mineral_names"]
+    names, spec = specimen["mineral_names"], specimen["spec"]
     return {
-        "spec": dataclasses.asdict(specimen["spec"]),
+        "spec": dataclasses.asdict(spec),
         "outline": (
             outline.tolist() if hasattr(outline, "tolist") else dataclasses.asdict(outline)
         ),
@@ -56,6 +56,7 @@ def fields_of(specimen: Mapping[str, Any]) -> Table:
         "vertices": cells.vertices.tolist(),
         "cells": [corners[start:end] for start, end in itertools.pairwise(ends)],
         "discs": specimen["discs"].tolist(),
+        **({} if spec.is_laguerre else {"laguerre": cells.laguerre.tolist()}),
         "sides": cells.boundary_edges[:, 1:].tolist(),
         "joints": joints,
         "lines": specimen["joints"],
@@ -108,7 +109,13 @@ def parts(content: Table) -> Table:
     def integers(key: str, columns: int) -> Any:
         return np.array(content[key], dtype=np.int32).reshape(-1, columns)
 
-    discs, sides = np.array(content["discs"], dtype=float), integers("sides", 3)
+    discs, sides, spec = (
+        np.array(content["discs"], dtype=float),
+        integers("sides", 3),
+        spec_of(content),
+    )
+    # files from before the marks hold either a packing or cells none of which is sure to be whole
+    marks = content.get("laguerre", [int(spec.is_laguerre)] * len(discs))
     tiling = call(
         cells_of_file,
         np.array(content["vertices"], dtype=float),
@@ -117,6 +124,7 @@ def parts(content: Table) -> Table:
         integers("joints", 3),
         np.ascontiguousarray(discs[:, :2]),
         np.ascontiguousarray(discs[:, 2]),
+        np.array(marks, dtype=np.int32),
     )
     outline = content["outline"]
     given = {key: content[key] for key in ("minerals", "grains") if content[key] is not None}
@@ -126,7 +134,7 @@ def parts(content: Table) -> Table:
             Circle(**outline) if isinstance(outline, Mapping) else np.array(outline, dtype=float)
         ),
         "tessellation": tiling.tessellation,
-        "spec": spec_of(content),
+        "spec": spec,
         "removed_discs": content["removed_discs"],
         "mineral_names": tuple(content.get("mineral_names", ())),
         "holes": tuple(np.array(hole, dtype=float) for hole in content["holes"]),
