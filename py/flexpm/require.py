@@ -125,6 +125,17 @@ def require_text(label: str, value: object) -> str:
     return value
 
 
+def require_name(label: str, value: object) -> str:
+    """Return `value` as a name that can be read and typed, or raise InputError."""
+    name = require_text(label, value)
+    if not (name and name.isprintable() and name == name.strip()):
+        raise InputError(
+            f"{label} = {quoted(value)}, must be a name of printable characters without blanks at "
+            "its ends"
+        )
+    return name
+
+
 def require_file_name(label: str, value: object, suffixes: Sequence[str] = ()) -> str:
     """Return `value` as the name of a file that stays in its folder, or raise InputError.
 

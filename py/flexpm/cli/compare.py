@@ -12,12 +12,12 @@ import click
 
 from ..errors import InputError, SimulationError
 from ..kinds.registry import TESTS, kind_of, names
-from ..materials.keys import is_used
-from ..materials.material import COMPARED
+from ..materials.material import default_name
 from ..models.options import MODELS
 from ..report import tables
 from ..require import NOT_NEGATIVE, require_known
 from ..runs.input_names import OWN_OPTIONS, ranges
+from ..specimens.space.any_spec import is_solid
 from ..studies.jobs import place_of
 from . import inputs, packings, terminal
 from . import options as cli_options
@@ -89,7 +89,7 @@ def compare(
 ) -> None:
     """Run a test with several models on one packing, or on several: one table, one picture.
 
-    TEST is as for run. All models have one material, augig-table7 unless another one is given. Each
+    TEST is as for run. All models have one material; the default is that of flexible grains. Each
     run has a folder of its own below the output folder; what is finished there is not run again.
     """
     require_known("test", test, TESTS)
@@ -98,11 +98,11 @@ def compare(
         raise InputError(
             f"confinements = {max(confinements):g} Pa, must be 0 for {test}{kind.confine_hint}"
         )
-    options["material"] = options["material"] or COMPARED
-    _require_use(options["assignments"], models)
-    chosen = {model: inputs.material(options, model) for model in models}
+    several = packings.asked(options)
     farthest = ranges(models, options["interaction_range"])
     source = inputs.source(test, options)
+    options["material"] = options["material"] or default_name(solid=is_solid(source.plain.kind))
+    chosen = inputs.shared_material(options, models)
     specs = [
         inputs.run_spec(
             test,
@@ -112,7 +112,7 @@ def compare(
         )
         for model, material in chosen.items()
     ]
-    if several := packings.asked(options):
+    if several:
         placed = {
             place_of(spec.model, pressure, len(confinements)): replace(spec, confinement=pressure)
             for spec in specs
@@ -143,19 +143,10 @@ def compare(
     terminal.say(comparison.table(found.cases))
     if found.envelopes:
         terminal.say(tables.envelope_table(found.envelopes, found.reference))
-    for case in found.cases:
-        if case.result is not None:
-            inputs.tell_warnings(case.result, f"{case.name}: ")
+    results = {case.name: case.result for case in found.cases if case.result is not None}
+    inputs.tell_each_once({name: inputs.new_warnings(one) for name, one in results.items()})
     terminal.say(f"  files  {folder}/")
     _report_failures(found.cases)
-
-
-def _require_use(assignments: Sequence[str], models: Sequence[str]) -> None:
-    """Refuse changes of the material that none of the models uses."""
-    for one in assignments:
-        key = one.partition("=")[0].strip()
-        if not any(is_used(key, model) for model in models):
-            raise InputError(f"set {one}, is used by none of {', '.join(models)}; leave it out")
 
 
 def _report_failures(cases: Sequence[Case]) -> None:

@@ -143,6 +143,7 @@ def tess(
             flat = _THICKNESS if thickness is None else thickness
             plane = Specimen.from_tess(file, flat, scale=scale, **given)
     if solid:
+        inputs.tell_lengths(made.extent, (made.mean_diameter,))
         solids.describe(made, folder)
     else:
         _describe(plane, folder)
@@ -189,6 +190,7 @@ def ebsd(file: Path, thickness: float, out: Path, quiet: bool, **options: Any) -
 
 def _describe(made: Specimen, folder: Path) -> None:
     """Print the figures of the grains and write them with the specimen and its picture."""
+    inputs.tell_lengths(made.extent, (made.mean_diameter,))
     import numpy as np
 
     from ..laboratory.forecast import forecast, softness
@@ -206,7 +208,8 @@ def _describe(made: Specimen, folder: Path) -> None:
         found["image"] = counts
     write_text(folder / "specimen.json", json_text(found | {"source": source}))
     made.save(folder / GRAINS_FILE)
-    caption = f"{found['grains']} grains, {found['contacts']} contacts"
+    cut = f" in {found['cells']} cells" if found["cells"] != found["grains"] else ""
+    caption = f"{found['grains']} grains{cut}, {found['contacts']} contacts"
     drawn = folder / "specimen.png"
     polygons = maps.cell_polygons(cells)
     kinds = grains if made.minerals is None else made.minerals

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import contextlib
+import warnings
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
@@ -12,8 +14,7 @@ import click
 from .. import _plugin
 from ..errors import InputError
 from ..files import FolderLock, Table, output_folder
-from ..materials.keys import is_used
-from ..materials.material import Material, load
+from ..materials.material import Material, load, unused
 from ..materials.mixing import description
 from ..results import doubts
 from ..runs.input_names import PACKING, SIZE_NAMES, UNUSED, shape_of, with_unit
@@ -63,22 +64,48 @@ def locked_folder(path: Path, kind: str = "") -> Path:
     return folder
 
 
-def material(options: Table, model: str | None = None) -> Material:
-    """The material with its changes, checked for the model.
+def material(options: Table, shape: str) -> Material:
+    """Return the material of the options with its changes, checked for their model.
+
+    A warning names changes that have no effect on the model.
 
     Args:
         options: Options of the command.
-        model: One of several that are compared, which leave out what only others use; None for
-            the one of the options.
+        shape: Shape of the specimen, which the default material depends on.
     """
-    assignments = options["assignments"]
-    if model is None:
-        model = options["model"]
-    else:
-        assignments = [one for one in assignments if is_used(one.partition("=")[0].strip(), model)]
-    chosen = load(options["material"], model).with_set(assignments, model)
-    description(chosen, model)
-    return chosen
+    model = options["model"]
+    for line in unused(_keys(options), model):
+        _warn(line)
+    return _changed(options, load(options["material"], model, solid=is_solid(shape)), model)
+
+
+def shared_material(options: Table, models: Sequence[str]) -> dict[str, Material]:
+    """Return the material of models that are compared, with the changes that each of them uses.
+
+    A warning names changes that have no effect on any of them.
+
+    Args:
+        options: Options of the command, with a material.
+        models: Names of the models.
+    """
+    keys = [key for key in _keys(options) if all(unused([key], model) for model in models)]
+    for key in keys:
+        _warn(f"set {key} has no effect, none of {', '.join(models)} uses it")
+    chosen = load(options["material"])
+    return {model: _changed(options, chosen, model) for model in models}
+
+
+def _keys(options: Table) -> list[str]:
+    """Keys of the changes of the material."""
+    return [one.partition("=")[0].strip() for one in options["assignments"]]
+
+
+def _changed(options: Table, chosen: Material, model: str) -> Material:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # changes without effect have been named
+        found = chosen.with_set(options["assignments"], model)
+    description(found, model)
+    return found
 
 
 def source(test: str, options: Table) -> SpecimenSource:
@@ -152,19 +179,48 @@ def _warn(line: str) -> None:
         terminal.say(f"warning: {line}")
 
 
-def tell_warnings(result: Result, name: str = "") -> None:
-    """Show the warnings of a result that have not been shown for its inputs."""
+def new_warnings(result: Result) -> list[str]:
+    """Return the warnings of a result that have not been shown for its inputs."""
     known = doubts.of_inputs(result.inputs) if result.inputs is not None else []
     told = click.get_current_context().meta.get("flexpm.doubts", ())
-    for line in result.warnings:
-        if line not in known and line not in told:
-            terminal.say(f"warning: {name}{line}")
+    return [line for line in result.warnings if line not in known and line not in told]
+
+
+def tell_warnings(result: Result) -> None:
+    """Show the warnings of a result that have not been shown for its inputs."""
+    for line in new_warnings(result):
+        terminal.say(f"warning: {line}")
+
+
+def tell_each_once(found: Mapping[str, Sequence[str]]) -> None:
+    """Show each warning of several runs once, with the runs that have it.
+
+    Args:
+        found: Warnings by the name of their run.
+    """
+    for line in dict.fromkeys(line for lines in found.values() for line in lines):
+        names = [name for name, lines in found.items() if line in lines]
+        every = len(names) == len(found) > 1
+        terminal.say(f"warning: {'all runs' if every else ', '.join(names)}: {line}")
+
+
+def tell_lengths(sizes: Mapping[str, float], diameters: Sequence[float] | None) -> None:
+    """Warn of lengths that are probably in another unit.
+
+    Args:
+        sizes: Sizes of a specimen by their names [m].
+        diameters: Diameters of its grains [m]; None if they are unknown.
+    """
+    for line in doubts.of_lengths(sizes, diameters or ()):
+        _warn(line)
 
 
 def packed(kind: str, options: Table) -> SpecimenSource:
     """The packing that the options describe, which are all for its shape, with its joints."""
     names = (*SIZES[kind], "thickness", "diameters", "porosity", "seed")
     spec = SpecimenSpec(kind, **{name: options[name] for name in names})
+    tell_lengths({**spec.sizes, "thickness": spec.thickness}, spec.diameters)
+    spec.require_memory()
     return _source(spec, None, options)
 
 
@@ -184,6 +240,8 @@ def made(specimen: SpecimenSource, progress: terminal.Progress) -> AnySpecimen:
     """
     load_yade()
     found = specimen.make(progress)
+    if specimen.plain.diameters is None:  # those of a packing have been looked at
+        tell_lengths(found.extent, (found.mean_diameter,))
     if specimen.lines is not None or specimen.network is not None:
         for line in doubts.of_cuts({name: one.to_json() for name, one in found.told_cuts.items()}):
             _warn(line)

@@ -197,7 +197,7 @@ def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options
     )
 
     plan = calibration_problem.read(file)
-    start = load(plan.material_file, plan.model)
+    start = load(plan.material_file, plan.model, solid=plan.is_solid)
     values = {key: value_of(start, key, plan.model) for key in plan.free}
     for key, (low, high) in plan.free.items():
         value = values[key]

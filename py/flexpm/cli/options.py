@@ -212,8 +212,8 @@ material_options = combined(
     click.option(
         "--material",
         metavar="NAME|FILE",
-        help="Preset or TOML file; if not given, augig-table7 for the flexible model and in "
-        "compare, else augig-table2-bilinear.",
+        help="Preset or TOML file.  [default: augig-table7 for the flexible model and in compare, "
+        "else augig-table2-bilinear; in 3D augig3d-calibrated and augig3d-calibrated-rigid]",
     ),
     click.option(
         "--set",

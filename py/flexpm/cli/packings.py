@@ -27,7 +27,7 @@ def asked(options: Table) -> Sequence[int]:
             f"threads = {options['threads']}, must be 1 with seeds; packings run side by side"
         )
     if options["workers"] and not seeds:
-        raise InputError(f"workers = {options['workers']}, must be given with seeds only")
+        raise InputError(f"workers = {options['workers']}, needs seeds; give them, or leave it out")
     return seeds
 
 
@@ -64,9 +64,8 @@ def carry_out(
     if criteria := packings.envelopes_text(wanted, rows):
         terminal.say(criteria)
     failed = packings.failures(rows)
-    for job in wanted:
-        if job.folder not in failed:
-            _tell_warnings(folder / job.folder, job.folder)
+    good = [job.folder for job in wanted if job.folder not in failed]
+    inputs.tell_each_once({place: _warnings(folder / place) for place in good})
     if options["report"]:
         from ..studies import pages
 
@@ -97,13 +96,11 @@ def _is_given(name: str) -> bool:
     return source is click.core.ParameterSource.COMMANDLINE
 
 
-def _tell_warnings(folder: Path, name: str) -> None:
-    """Show the warnings of a run that have not been shown for its inputs."""
+def _warnings(folder: Path) -> list[str]:
+    """Return the warnings of a run that have not been shown for its inputs."""
     content = load_json(folder / "result.json", "result")
     known = doubts.of_inputs(content["inputs"])
-    for line in content["warnings"]:
-        if line not in known:
-            terminal.say(f"warning: {name}: {line}")
+    return [line for line in content["warnings"] if line not in known]
 
 
 def _report_failures(failed: Mapping[str, tuple[int | None, str]], runs: int) -> None:

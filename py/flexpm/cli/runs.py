@@ -71,8 +71,8 @@ _discard_option = click.option(
 def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: Any) -> None:
     """Run a laboratory test and write its files."""
     require_known("test", test, TESTS)
-    chosen = inputs.material(options)
     source = inputs.source(test, options)
+    chosen = inputs.material(options, source.plain.kind)
     spec = inputs.run_spec(test, options, chosen, source)
     if several := packings.asked(options):
         asked = options | {"discard_checkpoint": discard_checkpoint}
@@ -145,8 +145,8 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
 @cli_options.quiet_option
 def elastic(out: Path | None, **options: Any) -> None:
     """Young's modulus and Poisson's ratio of a specimen by one static solve."""
-    chosen = inputs.material(options)
     source = inputs.source(ELASTIC, options)
+    chosen = inputs.material(options, source.plain.kind)
     spec = inputs.run_spec(ELASTIC, options, chosen, source)
     folder = None if out is None else inputs.locked_folder(out, "run")
     _solve(spec, chosen, lambda shown: inputs.made(source, shown), folder, options["quiet"])

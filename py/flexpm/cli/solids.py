@@ -111,6 +111,8 @@ solid_half_disc = _command(
 
 def _make(spec: SolidSpec, out: Path, quiet: bool) -> None:
     folder = inputs.locked_folder(out)
+    inputs.tell_lengths(spec.sizes, spec.diameters)
+    spec.require_memory()
     with terminal.Progress(quiet) as progress:
         inputs.load_yade()
         from ..specimens.space.specimen import SolidSpecimen

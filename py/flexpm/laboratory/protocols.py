@@ -15,6 +15,7 @@ from ..runs.checkpoint import INTERVAL
 from ..runs.input_names import paced
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec, described
+from ..specimens.space.any_spec import is_solid
 from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 from .carrying_out import carry_out
@@ -79,7 +80,7 @@ def run(
             of one, of the plane or of space; for ``uniaxial``, ``tension`` and ``sonic`` also, for
             ``triaxial`` only a box or a cylinder, for ``bending``, ``shear`` and ``punch`` also a
             box, z is the axial direction.
-        material: Preset, file, or material; None for the default of the model.
+        material: Preset, file, or material; None for the default of model and dimension.
         model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.
         confinement: Lateral pressure [Pa], for ``biaxial`` and others that take one.
@@ -138,7 +139,7 @@ def run(
     """
     require_tested("run", specimen)
     output = Output(report, frames, film)
-    chosen = load_material(material, model)
+    chosen = load_material(material, model, solid=is_solid(specimen.spec.kind))
     factor, halvings = paced(rate, halvings)
     spec = RunSpec(
         test,

@@ -201,12 +201,22 @@ def read_key(label: str, minerals: Sequence[str]) -> tuple[tuple[str, str], str,
 
 
 def _split(label: str, names: str, minerals: Sequence[str]) -> tuple[str, str]:
-    """Minerals of a text MINERAL/MINERAL; a name may have a slash of its own."""
+    """Minerals of a text MINERAL/MINERAL; a name may have a slash of its own.
+
+    Raises:
+        InputError: for a text that names no pair of the minerals, or more than one.
+    """
     parts = names.split("/")
-    for place in range(1, len(parts)):
-        first, second = "/".join(parts[:place]), "/".join(parts[place:])
-        if first in minerals and second in minerals:
-            return _in_order(first, second)
+    pairs = (("/".join(parts[:at]), "/".join(parts[at:])) for at in range(1, len(parts)))
+    found = sorted({_in_order(*pair) for pair in pairs if {*pair} <= {*minerals}})
+    if len(found) > 1:
+        both = " or ".join(f"{first} with {second}" for first, second in found)
+        raise InputError(
+            f"set {label}: {names!r} is {both}; give the pair as [[interface]] of the material's "
+            "file, or take names of minerals without /"
+        )
+    if found:
+        return found[0]
     if not minerals:
         raise InputError(f"set {label}, needs a material with [[mineral]] tables")
     raise InputError(

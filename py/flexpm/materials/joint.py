@@ -52,12 +52,13 @@ class Joint:
         if self.open:
             self._refuse_strengths()
             return
-        for key in _REQUIRED:
-            if getattr(self, key) is None:
-                raise InputError(
-                    f"material [joint.{self.name}] {key} is missing; give it, or open = true for a "
-                    "notch"
-                )
+        missing = [key for key in _REQUIRED if getattr(self, key) is None]
+        if missing:
+            keys = f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing"
+            raise InputError(
+                f"material [joint.{self.name}] {keys}; give all keys of a new joint together, or "
+                "open = true for a notch"
+            )
 
     @classmethod
     def from_dict(cls, name: str, data: object) -> Joint:

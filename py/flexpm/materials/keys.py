@@ -33,9 +33,16 @@ ELASTIC_SET = {
     "jcfpm": "rigid",
     "cohfrict": "rigid",
 }
-#: Keys that are of the triangles, which other models do not have; a rock's E and nu are what the
-#: stiffness of inner particles is fitted to.
-_OF_TRIANGLES = {"flexible": (), "inner": ("plane",), "rigid": ("young", "poisson", "plane")}
+#: Keys of the triangles alone, which rigid grains do not have.
+_OF_TRIANGLES = ("young", "poisson", "plane")
+#: Keys that a model does not use. The stiffness of inner particles is fitted to a rock's E and nu;
+#: the bonds of YADE's spheres break without softening.
+_UNUSED: dict[str, tuple[str, ...]] = {
+    "flexible": (),
+    "rigid": _OF_TRIANGLES,
+    **dict.fromkeys(("inner", "inner-un"), ("plane",)),
+    **dict.fromkeys(("jcfpm", "cohfrict"), (*_OF_TRIANGLES, *ENERGY_KEYS, "softening")),
+}
 
 
 def _around(magnitude: float) -> Bounds:
@@ -95,11 +102,9 @@ def checked(key: str, value: object, where: str = "") -> float | str:
 
 
 def is_used(key: str, model: str) -> bool:
-    """Whether a key, of the rock or ``MINERAL.KEY``, has a meaning for a model.
-
-    Fracture energies of YADE's models, which break at once, have one: they bound the strengths.
-    """
-    return key.rpartition(".")[2] not in _OF_TRIANGLES[elastic_set_name(model)]
+    """Whether results of a model depend on a key of the rock, of a mineral or of an interface."""
+    require_known("model", model, list(ELASTIC_SET))
+    return key.rpartition(".")[2] not in _UNUSED[model]
 
 
 def elastic_set_name(model: str) -> str:

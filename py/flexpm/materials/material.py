@@ -7,6 +7,7 @@ Inside the contact law tension and opening are positive; all strengths here are 
 from __future__ import annotations
 
 import dataclasses
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +17,7 @@ from ..errors import InputError
 from ..files import Table, load_toml
 from ..notebook import Shown
 from ..require import nearest, quoted, require_known, require_table, require_text
-from . import interface, joint, mineral
+from . import interface, joint, made_for, mineral
 from .interface import Interface
 from .joint import Joint
 from .keys import (
@@ -30,14 +31,17 @@ from .keys import (
     elastic_set_name,
     is_used,
 )
+from .made_for import MadeFor
 from .mineral import Mineral
 
 #: A fracture energy this close to the elastic energy [relative] counts as equal: brittle.
 ENERGY_TOLERANCE = 1e-12
 
-#: Preset of a comparison unless told otherwise: it has an elastic set for each model.
-COMPARED = "augig-table7"
-
+#: Default presets for flexible grains and for the other models, by whether the specimen is 3D.
+_DEFAULTS = {
+    False: ("augig-table7", "augig-table2-bilinear"),
+    True: ("augig3d-calibrated", "augig3d-calibrated-rigid"),
+}
 _PRESETS = Path(__file__).with_name("presets")
 
 
@@ -89,6 +93,7 @@ class Material(Shown):
     minerals: tuple[Mineral, ...] = ()  #: kinds of grains; none: all grains alike
     joints: tuple[Joint, ...] = ()  #: laws of contacts along cuts
     interfaces: tuple[Interface, ...] = ()  #: what contacts of pairs of minerals have of their own
+    made_for: MadeFor | None = None  #: specimens and model of its calibration; None: unknown
 
     def __post_init__(self) -> None:
         for key in COMMON_KEYS:
@@ -107,6 +112,7 @@ class Material(Shown):
         object.__setattr__(self, "joints", joint.checked(self.joints))
         names = [kind.name for kind in self.minerals]
         object.__setattr__(self, "interfaces", interface.checked(self.interfaces, names))
+        object.__setattr__(self, "made_for", made_for.checked(self.made_for))
 
     @classmethod
     def from_dict(cls, data: Mapping[str, object], name: str = "custom") -> Material:
@@ -114,7 +120,8 @@ class Material(Shown):
 
         Args:
             data: Common keys, a table `elastic` of sets, lists `mineral` and `interface` of tables
-                if grains differ, a table `joint` of joints if there are; `name` is optional.
+                if grains differ, a table `joint` of joints if there are; `name` and a table
+                `made_for` are optional.
             name: Name if `data` holds none.
 
         Raises:
@@ -124,17 +131,16 @@ class Material(Shown):
         label = require_text("material name", common.pop("name", name))
         sets = require_table("material elastic", common.pop("elastic", {}))
         kinds, cuts = common.pop("mineral", ()), common.pop("joint", {})
-        pairs = common.pop("interface", ())
+        pairs, calibrated = common.pop("interface", ()), common.pop("made_for", None)
         for key in common:
-            tables = ("name", "elastic", "mineral", "interface", "joint")
+            tables = ("name", "elastic", "mineral", "interface", "joint", "made_for")
             require_known("material key", key, [*COMMON_KEYS, *tables])
         given = {set_name: _elastic_keys(set_name, values) for set_name, values in sets.items()}
         _refuse_missing(common, given)
         elastic = {set_name: ElasticSet(**values) for set_name, values in given.items()}
         laws = joint.checked(require_table("material joint", cuts))
-        return cls(
-            name=label, elastic=elastic, minerals=kinds, joints=laws, interfaces=pairs, **common
-        )
+        common |= {"minerals": kinds, "joints": laws, "interfaces": pairs, "made_for": calibrated}
+        return cls(name=label, elastic=elastic, **common)
 
     def with_set(
         self,
@@ -155,19 +161,18 @@ class Material(Shown):
         brittle means that they equal the elastic energies. A stiffness or shear ratio given for
         inner particles drops the constants that these would be fitted to.
 
+        A key that `model` does not use changes nothing; a ``UserWarning`` names it.
+
         Raises:
-            InputError: for a malformed assignment, an unknown key, one that `model` does not use,
-                or a value out of range.
+            InputError: for a malformed assignment, an unknown key, or a value out of range.
         """
         changes: Table = {**_assigned(assignments), **_assigned(values)}
+        for line in unused(changes, model):
+            warnings.warn(line, stacklevel=2)
+        changes = {key: value for key, value in changes.items() if _has_effect(key, model)}
         if not changes:
             return self
         name = elastic_set_name(model)
-        for key, value in changes.items():
-            if not joint.is_key(key) and not is_used(key, model):
-                raise InputError(
-                    f"set {key} = {quoted(value)}, is not used by model {model}; leave it out"
-                )
         of_joints = {key: changes.pop(key) for key in list(changes) if joint.is_key(key)}
         cuts = joint.with_values(self.joints, of_joints)
         of_pairs = {key: changes.pop(key) for key in list(changes) if interface.is_key(key)}
@@ -196,8 +201,8 @@ class Material(Shown):
         and c^2 / (2 eta K_n) [N/m] of the model's own elastic set.
 
         Raises:
-            InputError: if the material has no set for `model`, lacks a value that `model` needs,
-                or if a fracture energy lies below the elastic energy.
+            InputError: if the material has no set for `model` or lacks a value that `model` needs,
+                or if a fracture energy that `model` uses lies below the elastic energy.
         """
         chosen = self._elastic(model)
         if model == "flexible":
@@ -217,8 +222,8 @@ class Material(Shown):
             tensile_strength=self.tensile_strength,
             cohesion=self.cohesion,
             friction=self.friction,
-            tensile_fracture_energy=self._energy("tensile_fracture_energy", tensile),
-            shear_fracture_energy=self._energy("shear_fracture_energy", shear),
+            tensile_fracture_energy=self._energy("tensile_fracture_energy", tensile, model),
+            shear_fracture_energy=self._energy("shear_fracture_energy", shear, model),
             softening=self.softening,
             plane=self.plane,
         )
@@ -247,10 +252,12 @@ class Material(Shown):
             )
         return self.elastic[name]
 
-    def _energy(self, key: str, elastic: float) -> float:
+    def _energy(self, key: str, elastic: float, model: str) -> float:
         given: float | None = getattr(self, key)
         if given is None:
             return elastic
+        if not is_used(key, model):
+            return given
         if self.softening == "brittle":
             if abs(given - elastic) > ENERGY_TOLERANCE * elastic:
                 raise InputError(
@@ -265,9 +272,26 @@ class Material(Shown):
         return given
 
 
-def default_name(model: str = "flexible") -> str:
-    """Preset used when none is given: the best fit of the paper for that kind of model."""
-    return "augig-table7" if model == "flexible" else "augig-table2-bilinear"
+def default_name(model: str = "flexible", *, solid: bool = False) -> str:
+    """Name of the preset that is used if no material is given.
+
+    The preset of flexible grains has an elastic set for each model that takes such specimens:
+    models that are compared share it.
+
+    Args:
+        model: Name of the model.
+        solid: Whether the specimen is 3D.
+    """
+    return _DEFAULTS[solid][made_for.stand_in(model) != "flexible"]
+
+
+def unused(keys: Iterable[str], model: str) -> list[str]:
+    """A line for each key of an assignment that has no effect on a model."""
+    return [
+        f"set {key} has no effect, model {model} does not use it"
+        for key in keys
+        if not _has_effect(key, model)
+    ]
 
 
 def preset_names() -> list[str]:
@@ -276,7 +300,10 @@ def preset_names() -> list[str]:
 
 
 def load(
-    material: str | Path | Mapping[str, object] | Material | None = None, model: str = "flexible"
+    material: str | Path | Mapping[str, object] | Material | None = None,
+    model: str = "flexible",
+    *,
+    solid: bool = False,
 ) -> Material:
     """Return a material from a preset's name, a TOML file, a dictionary or a Material.
 
@@ -284,12 +311,13 @@ def load(
         material: None takes the default preset of `model`. A text that ends in `.toml` or holds
             a path separator is a file, any other text is the name of a preset.
         model: Model whose default is taken.
+        solid: Whether the default for 3D specimens is taken.
 
     Raises:
         InputError: for an unknown preset, an unreadable file or a wrong value.
     """
     if material is None:
-        material = default_name(model)
+        material = default_name(model, solid=solid)
     if isinstance(material, Material):
         return material
     if isinstance(material, Mapping):
@@ -307,6 +335,10 @@ def load(
 
 def _load_file(path: Path) -> Material:
     return Material.from_dict(load_toml(path, "material"), name=path.stem)
+
+
+def _has_effect(key: str, model: str) -> bool:
+    return joint.is_key(key) or is_used(key, model)
 
 
 def _elastic_keys(name: str, values: object) -> Table:

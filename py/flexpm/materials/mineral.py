@@ -14,9 +14,9 @@ from ..require import (
     POSITIVE,
     quoted,
     require_known,
+    require_name,
     require_number,
     require_table,
-    require_text,
 )
 from .keys import COMMON_KEYS, ELASTIC_KEYS
 
@@ -37,6 +37,9 @@ class Mineral:
     fraction: float  #: of the area [-]
     changes: Mapping[str, object]  #: common keys, and `elastic`: changed keys by name of the set
 
+    def __post_init__(self) -> None:
+        require_name("mineral name", self.name)
+
     @classmethod
     def from_dict(cls, data: object, number: int) -> Mineral:
         """Make a mineral from a table `[[mineral]]`.
@@ -53,7 +56,7 @@ class Mineral:
         for key in ("name", "fraction"):
             if key not in changes:
                 raise InputError(f"{where} {key} is missing; give the mineral a {key}")
-        name, fraction = require_text(f"{where} name", changes.pop("name")), changes.pop("fraction")
+        name, fraction = require_name(f"{where} name", changes.pop("name")), changes.pop("fraction")
         fraction = require_number(f"{where} fraction", fraction, POSITIVE)
         for key in changes:
             require_known(f"mineral {name} key", key, [*_KEYS, "name", "fraction", "elastic"])

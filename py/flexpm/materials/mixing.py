@@ -23,7 +23,7 @@ from ..files import Table
 from ..require import require_known
 from . import interface
 from .interface import ENERGY_OF, KEYS, Interface
-from .keys import ELASTIC_KEYS, ELASTIC_SET, ENERGY_KEYS, elastic_set_name
+from .keys import ELASTIC_KEYS, ELASTIC_SET, ENERGY_KEYS, elastic_set_name, is_used
 from .material import ENERGY_TOLERANCE, ElasticSet, Law, Material
 from .mineral import Mineral
 
@@ -259,7 +259,9 @@ def _with_interface(pair: Material, own: Interface | None, model: str) -> Materi
     name = elastic_set_name(model)
     elastic = pair.elastic[name]
     mixed = {key: getattr(elastic if key in ELASTIC_KEYS else pair, key) for key in KEYS}
-    changes = own.law_of(mixed)
+    idle = [key for key in own.factors if mixed[key] is None and not is_used(key, model)]
+    factors = {key: factor for key, factor in own.factors.items() if key not in idle}
+    changes = dataclasses.replace(own, factors=factors).law_of(mixed)
     springs = {key: changes.pop(key) for key in ELASTIC_KEYS if key in changes}
     if changes.get("softening") == "brittle":
         changes = dict.fromkeys(ENERGY_KEYS) | changes

@@ -19,8 +19,9 @@ class Reference:
     friction_angle: float  #: phi [degree]
 
 
-#: By the first part of the names of the presets.
-_ROCKS = {"augig": Reference("Augig granite", 25.8e9, 0.23, 122.1e6, 8.8e6, 21.0e6, 53.0)}
+_AUGIG = Reference("Augig granite", 25.8e9, 0.23, 122.1e6, 8.8e6, 21.0e6, 53.0)
+#: By the first part of the names of the presets, in 2D and in 3D.
+_ROCKS = {"augig": _AUGIG, "augig3d": _AUGIG}
 
 
 def reference_of(material: str) -> Reference | None:

@@ -242,7 +242,7 @@ def build(
 
     Args:
         specimen: The grains; of a solid flexible or rigid ones, or YADE's spheres.
-        material: Preset, file, or material; None for the default of the model.
+        material: Preset, file, or material; None for the default of model and dimension.
         model: ``flexible``, ``rigid``, ``inner``, ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.
         points: Contact points per contact, 1, 2 or 3 (Lobatto); inner particles have one.
@@ -300,7 +300,7 @@ def build(
         )
     _refuse_second()
     if isinstance(specimen, SolidSpecimen):
-        chosen = load_material(material, model)
+        chosen = load_material(material, model, solid=True)
         built = _build_solid(specimen, chosen, model, damping, dynamic=dynamic)
         built.set_threads(threads)
         return built
@@ -332,7 +332,7 @@ def elastic(
 
     Args:
         specimen: A rectangle, or a box or a cylinder, which is pulled along z.
-        material: Preset, file, or material; None for the default of the model.
+        material: Preset, file, or material; None for the default of model and dimension.
         model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``; of solids the first two.
         points: Contact points per contact; inner particles have one. Not of solids.
         mesh: ``refined`` or ``fan``. Not of solids.
@@ -351,7 +351,7 @@ def elastic(
                 f"elastic: points, mesh = {points}, {mesh}, must be left out for a solid, whose "
                 "contacts have their corners and an inner point, and whose meshes are fans"
             )
-        return elastic_of_solid(specimen, load_material(material, model), model)
+        return elastic_of_solid(specimen, load_material(material, model, solid=True), model)
     require_specimen("elastic", specimen)
     grains = grains_of(specimen, model, points, mesh)
     chosen = fitted(specimen, grains, load_material(material, model), model)

@@ -283,7 +283,7 @@ def build(
             bonds.
     """
     require_one_of("build: model", model, SPHERE_MODELS)
-    chosen = load_material(material, model)
+    chosen = load_material(material, model, solid=isinstance(specimen, SolidSpecimen))
     laws, kind = laws_of(specimen, chosen, model), LAWS[model]
     bonds, radii = bonds_of(specimen, laws, interaction_range), kind.radii(specimen)
     if not len(bonds.areas):

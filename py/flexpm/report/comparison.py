@@ -102,7 +102,11 @@ def cracks_picture(path: Path | str, runs: Runs) -> None:
 
 
 def envelope_picture(
-    path: Path | str, envelopes: Sequence[Envelope], rock: Reference | None = None
+    path: Path | str,
+    envelopes: Sequence[Envelope],
+    rock: Reference | None = None,
+    title: str = "",
+    runs: Sequence[tuple[float, float | None, str]] = (),
 ) -> None:
     """Draw the peaks over the confinements with both criteria.
 
@@ -110,6 +114,9 @@ def envelope_picture(
         path: Picture to write.
         envelopes: One for each model.
         rock: Measured properties, whose line is drawn, too.
+        title: Line above the picture.
+        runs: Confinement [Pa], peak [Pa] or None, and status of each run. Peaks of runs that are
+            not ``ok`` are crossed out, and runs without a peak are counted.
     """
     with rc_context(STYLE):
         figure = Figure(figsize=(5.8, 4.6), layout="constrained")
@@ -125,7 +132,12 @@ def envelope_picture(
             axes.plot(
                 1e-6 * confinements, stress, color="black", lw=1.0, ls=(0, (1, 1.5)), label=label
             )
-        axes.set_xlabel("confinement, lateral stress [MPa]")
+        _draw_doubtful(axes, runs)
+        missing = sum(peak is None for _, peak, _ in runs)
+        note = f"{missing} of {len(runs)} runs have no peak and are left out" if missing else ""
+        lines = [line for line in (label_of(title), note) if line]
+        axes.set_title("\n".join(lines), fontsize=9.5, loc="left")
+        axes.set_xlabel("confining pressure [MPa]")
         axes.set_ylabel("largest axial stress [MPa]")
         axes.set_xlim(left=-0.02 * 1e-6 * widest)
         axes.set_ylim(bottom=0.0)
@@ -137,13 +149,12 @@ def _draw_envelope(axes: Axes, one: Envelope, confinements: FloatArray, number: 
     colour = CYCLE[number % len(CYCLE)]
     marker = _MARKERS[number % len(_MARKERS)]
     places = 1e-6 * np.array([one.confinements, one.peaks])
-    label = (
-        one.model if one.mohr_coulomb is None else f"{one.model}: {_line_text(one.mohr_coulomb)}"
-    )
+    label = f"{one.model}: peaks"
     axes.plot(*places, marker, color=colour, ms=5.0, mfc="white", mew=1.3, label=label)
     if one.mohr_coulomb is not None:
         stress = one.mohr_coulomb.strength(confinements)
-        axes.plot(1e-6 * confinements, 1e-6 * stress, color=colour, lw=1.3)
+        label = f"{one.model}: {_line_text(one.mohr_coulomb)}"
+        axes.plot(1e-6 * confinements, 1e-6 * stress, color=colour, lw=1.3, label=label)
     if one.hoek_brown is not None:
         label = (
             f"{one.model}: $\\sigma_{{ci}}$ = {1e-6 * one.hoek_brown.sigma_ci:.1f} MPa, "
@@ -153,6 +164,15 @@ def _draw_envelope(axes: Axes, one: Envelope, confinements: FloatArray, number: 
         axes.plot(
             1e-6 * confinements, 1e-6 * stress, color=colour, lw=1.0, ls=(0, (5, 3)), label=label
         )
+
+
+def _draw_doubtful(axes: Axes, runs: Sequence[tuple[float, float | None, str]]) -> None:
+    """Cross out the peaks of runs with a status other than ``ok``."""
+    statuses = dict.fromkeys(status for _, peak, status in runs if peak is not None)
+    for status, marker in zip((one for one in statuses if one != "ok"), "x+12", strict=False):
+        places = [(c, peak) for c, peak, one in runs if peak is not None and one == status]
+        x, y = 1e-6 * np.array(places).T
+        axes.plot(x, y, marker, color="black", ms=7.0, mew=1.2, ls="none", label=status)
 
 
 def _line_text(line: MohrCoulomb) -> str:

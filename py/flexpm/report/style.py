@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import textwrap
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,6 +13,7 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes as Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from ..arrays import FloatArray
 from ..files import whole_file
@@ -41,6 +43,10 @@ STYLE = {
     "lines.solid_capstyle": "round",
 }
 
+#: Room around what is drawn [inch].
+_PAD = 0.08
+#: Width of a title over that of its figure that always fits [-]; most trials to fit one.
+_SHORT, _FITS = 0.6, 4
 #: Coordinates beyond this are not drawn.
 _LARGEST = 1e30
 #: Sides of a picture of more than this ratio are not drawn [-].
@@ -62,11 +68,48 @@ def drawing(path: Path | str, size: tuple[float, float] = (5.6, 3.9)) -> Iterato
 
 
 def save(figure: Figure, path: Path | str) -> None:
-    """Write a picture, whole or not at all."""
+    """Write a picture, whole or not at all; a title that is too wide gets more lines."""
     with whole_file(path) as temporary, warnings.catch_warnings():
         # a name may have characters that the font lacks; they are drawn as boxes
         warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)
+        if (engine := figure.get_layout_engine()) is not None:
+            engine.set(w_pad=_PAD, h_pad=_PAD)
+        _fit_titles(figure)
         figure.savefig(temporary)
+
+
+def _fit_titles(figure: Figure) -> None:
+    """Break titles where they would come nearer to the right edge of a figure than its pad."""
+    titles = [title for axes in figure.axes for title in _titles_of(axes)]
+    if all(title.get_window_extent().width < _SHORT * figure.bbox.width for title in titles):
+        return
+    for _ in range(_FITS):
+        figure.draw_without_rendering()  # places the titles
+        wide = [title for title in titles if _overhang(figure, title) > 0.0]
+        for title in wide:
+            box = title.get_window_extent()
+            share = 1.0 - _overhang(figure, title) / box.width
+            lines = title.get_text().split("\n")
+            columns = max(int(share * max(map(len, lines))), 1)
+            fitted = [textwrap.fill(line, columns, break_long_words=False) for line in lines]
+            title.set_text("\n".join(fitted))
+        if not wide:
+            return
+
+
+def _titles_of(axes: Axes) -> list[Text]:
+    texts = {axes.get_title(loc) for loc in ("left", "center", "right")} - {""}
+    found = [one for one in axes.get_children() if isinstance(one, Text)]
+    return [one for one in found if one.get_text() in texts]
+
+
+def _overhang(figure: Figure, title: Text) -> float:
+    """Width of a title beyond the pad of a figure [pixel]; a centred one has it on both sides."""
+    box, pad = title.get_window_extent(), _PAD * float(figure.dpi)
+    right = float(box.x1 - (figure.bbox.width - pad))
+    if title.get_ha() == "center":
+        return 2.0 * max(right, float(pad - box.x0))
+    return right
 
 
 def colour_limits(values: FloatArray) -> tuple[float, float]:

@@ -17,8 +17,9 @@ if TYPE_CHECKING:  # the command shows its help without numpy
     from ..results.result import Result
     from ..results.strength import Envelope
 
-#: Stress of crack initiation over the peak that granites show [-], uniaxial and under a pressure:
-#: Nicksiar and Martin 2013, 376 tests.
+#: Stress of crack initiation over the peak that granites show [-], uniaxial and under a pressure,
+#: in 376 tests, and who has collected them.
+_INITIATION = "Nicksiar and Martin 2013"
 _GRANITES, _CONFINED_GRANITES = (0.42, 0.47), (0.50, 0.54)
 #: Figures of a specimen: words, factor to the unit, unit. The rest is counts named by their keys.
 _FIGURES = {
@@ -163,7 +164,8 @@ def size_text(result: Result) -> str:
         parts.append(f"{1e3 * specimen['width']:.4g} x {1e3 * specimen['height']:.4g} mm")
     elif specimen.get("diameter"):
         parts.append(f"{half}disc of {1e3 * specimen['diameter']:.4g} mm")
-    parts += [f"{result.grains} grains", f"{result.contacts} contacts"]
+    cells = "cells" if specimen.get("cells") else "grains"  # a grain may be several cells
+    parts += [f"{result.grains} {cells}", f"{result.contacts} contacts"]
     parts.append("given grains" if result.seed is None else f"seed {result.seed}")
     return ", ".join(parts)
 
@@ -192,7 +194,7 @@ def _core(result: Result) -> list[tuple[str, str]]:
     initiation = told("crack_initiation_stress", " by cracks, ")
     initiation += told("crack_initiation_stress_volumetric", " by volume; ")
     return [
-        ("crack initiation", f"{initiation}granites {low:.2f} to {high:.2f}"),
+        ("crack initiation", f"{initiation}granites {low:.2f} to {high:.2f}, {_INITIATION}"),
         ("crack damage", told("crack_damage_stress")),
     ]
 

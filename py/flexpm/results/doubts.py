@@ -12,7 +12,11 @@ from ..files import Table
 from ..kinds.registry import kind_of
 from ..kinds.test_kind import Stage
 from ..materials.interface import ENERGY_OF
+from ..materials.made_for import MadeFor, dimension_of
+from ..materials.material import default_name
 from ..materials.mixing import long_softening
+from ..materials.references import reference_of
+from ..text import name_of
 
 #: Ranges in which no rock or specimen is known to lie beyond, and what is probably meant.
 _USUAL: dict[str, tuple[float, float, str]] = {
@@ -25,11 +29,11 @@ _USUAL: dict[str, tuple[float, float, str]] = {
     "confinement": (1e3, 1e11, "Pa; 4 MPa is 4e6"),
     "second_confinement": (1e3, 1e11, "Pa; 4 MPa is 4e6"),
     "normal_stress": (1e3, 1e11, "Pa; 1 MPa is 1e6"),
-    "width": (1e-6, 5.0, "m; 20 mm is 0.02"),
-    "height": (1e-6, 5.0, "m; 40 mm is 0.04"),
-    "diameter": (1e-6, 5.0, "m; 80 mm is 0.08"),
-    "thickness": (1e-6, 5.0, "m; 80 mm is 0.08"),
 }
+#: Sizes of specimens of all shapes.
+_SIZES = ("width", "depth", "height", "diameter", "thickness")
+#: Range of the sizes of specimens and of the diameters of grains without a warning [m].
+SPECIMEN_SIZES, GRAIN_SIZES = (1e-6, 2.0), (1e-6, 0.1)
 #: Local damping that lets what moves under gravity be told from it [-].
 LARGEST_DAMPING = 0.2
 #: Difference of both ends' reactions that is none [-], the median up to the peak.
@@ -92,17 +96,24 @@ NO_PULSE = (
 
 
 def of_inputs(inputs: Table) -> list[str]:
-    """Inputs of a run that are surely in other units, and damping that gravity works against.
+    """Inputs of a run that are surely in other units, or of another dimension or model.
+
+    In addition, damping that gravity works against.
 
     Args:
         inputs: As result.json has them.
     """
     material = inputs["material"]
-    tables = [("", {**inputs, **inputs["specimen"]}), ("", material)]
+    specimen = inputs["specimen"]
+    tables = [("", inputs), ("", material)]
     tables += [(f"{kind['name']} ", kind) for kind in material.get("minerals", ())]
     tables += [(f"joint {joint['name']} ", joint) for joint in material.get("joints", ())]
     lines = [line for where, values in tables for line in _of_values(where, values)]
     lines += of_softening(material)
+    sizes = {name: specimen[name] for name in _SIZES if specimen.get(name) is not None}
+    lines += of_lengths(sizes, specimen.get("diameters") or ())
+    solid = "thickness" not in specimen  # 2D specimens alone have one
+    lines += of_material(material, inputs["model"], solid=solid)
     lines += of_weak_joints(inputs)
     damping = inputs.get("damping")  # 0.7 before it could be chosen
     return lines + of_gravity(inputs.get("gravity") or 0.0, 0.7 if damping is None else damping)
@@ -177,9 +188,43 @@ def of_overlap(part: float) -> list[str]:
     ]
 
 
-def of_specimen(sizes: Mapping[str, float]) -> list[str]:
-    """Sizes of a specimen that are surely in other units, by name [m]."""
-    return list(_of_values("", sizes))
+def of_lengths(sizes: Mapping[str, float], diameters: Sequence[float]) -> list[str]:
+    """Lengths that are probably in another unit, in one line.
+
+    Args:
+        sizes: Sizes of the specimen by their names [m].
+        diameters: Diameters of grains [m]; none if they are unknown.
+    """
+    low, high = SPECIMEN_SIZES
+    odd = [f"{name} = {size:g} m" for name, size in sizes.items() if not low <= size <= high]
+    if odd:
+        usual = f"specimens have {low:g} to {high:g} m"
+    elif any(not GRAIN_SIZES[0] <= one <= GRAIN_SIZES[1] for one in diameters):
+        odd = [f"diameters of grains = {' to '.join(f'{one:g}' for one in diameters)} m"]
+        usual = f"grains have {GRAIN_SIZES[0]:g} to {GRAIN_SIZES[1]:g} m"
+    else:
+        return []
+    return [f"{', '.join(odd)}, unusual: {usual}; the unit is m, 20 mm is 0.02"]
+
+
+def of_material(material: Table, model: str, *, solid: bool) -> list[str]:
+    """Calibration of a material for another dimension or another model than those of a run.
+
+    Args:
+        material: As result.json has it.
+        model: Model of the run.
+        solid: Whether its specimen is 3D.
+    """
+    given = material.get("made_for")
+    if not given or MadeFor(**given).suits(model, solid=solid):
+        return []
+    name = material["name"]
+    remedy = f"take {default_name(model, solid=solid)} or " if reference_of(name) else ""
+    return [
+        f"material = {name_of(name)}, was calibrated in {given['dimension']} for model "
+        f"{given['model']}, the run is {dimension_of(solid=solid)} with model {model}: strength "
+        f"and elastic constants may be far from the rock's; {remedy}calibrate for this run"
+    ]
 
 
 def of_result(

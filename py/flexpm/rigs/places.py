@@ -14,7 +14,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray
 from ..errors import InputError
-from ..require import POSITIVE, Bounds, quoted, require_number, require_text
+from ..require import POSITIVE, Bounds, quoted, require_name, require_number
 
 #: x and y, and z of space.
 Place = Sequence[float]
@@ -62,12 +62,7 @@ def require_direction(label: str, value: object, axes: str = PLANE) -> Vector:
 
 def require_column(label: str, name: object, taken: Sequence[str]) -> str:
     """Return a name that a column may have beside others, or raise InputError."""
-    text = require_text(label, name)
-    if not (text and text.isprintable() and text == text.strip()):
-        raise InputError(
-            f"{label} = {quoted(name)}, must be a name of printable characters without blanks at "
-            "its ends"
-        )
+    text = require_name(label, name)
     if text in taken:
         raise InputError(f"{label} = {quoted(name)}, must not be the name of another column")
     return text

@@ -174,7 +174,7 @@ class RigReadings(ABC):
         specimen = self.built.specimen
         lines = [doubts.of_divergence(yade.O.iter)] if self.diverged else []
         plane = {} if self.solid else {"thickness": specimen.thickness}
-        lines += doubts.of_specimen({**specimen.dimensions, **plane})
+        lines += doubts.of_lengths({**specimen.extent, **plane}, (specimen.mean_diameter,))
         return lines + doubts.of_result("", error, mismatch, None)
 
     @property

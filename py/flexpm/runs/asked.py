@@ -25,7 +25,7 @@ from ..specimens.space.any_spec import SIZES, AnySpec, field_names, is_solid, sp
 from ..specimens.spec import GRAINS_FILE
 from .input_names import INPUT_UNITS, unused
 from .run_inputs import RunInputs
-from .run_spec import RunSpec, described
+from .run_spec import LABELS, RunSpec, described, law_of
 
 if TYPE_CHECKING:
     from ..results.result import Result
@@ -239,11 +239,11 @@ def command(spec: RunSpec) -> str:
 
 
 def _material_options(spec: RunSpec, preset: str) -> Iterator[str]:
-    usual = described(load(None, spec.model), spec.model)
+    usual = described(load(None, spec.model, solid=spec.is_solid), spec.model)
     base = described(load(preset, spec.model), spec.model)
     if usual["name"] != preset:
         yield from ("--material", preset)
-    for key, value in spec.material.items():
+    for key, value in law_of(spec.material).items():
         if base.get(key) != value:
             yield from ("--set", f"{key}={_text(value)}")
 
@@ -297,7 +297,7 @@ def _of_material(spec: RunInputs) -> Iterator[Input]:
 
 def _of_law(where: str, law: Table, preset: Table, source: str) -> Iterator[Input]:
     for key, value in law.items():
-        if key in ("name", "pair", "minerals", "interfaces", "joints") or value is None:
+        if key in (*LABELS, "pair", "minerals", "interfaces", "joints") or value is None:
             continue
         changed = bool(preset) and preset.get(key) != value
         unit = (UNITS.get(key) or JOINT_UNITS.get(key) or "").removeprefix("-")

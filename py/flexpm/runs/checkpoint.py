@@ -30,7 +30,7 @@ from ..errors import InputError
 from ..files import FolderLock, Table, json_text, read_json, whole_file, write_text
 from ..require import POSITIVE, require_number
 from .output import RESULT, is_of_flexpm, refuse_other_result
-from .run_spec import RunSpec
+from .run_spec import RunSpec, law_of
 
 #: Wall time between two checkpoints [s].
 INTERVAL = 30.0
@@ -344,8 +344,7 @@ def _flat(inputs: Table) -> Table:
     """Inputs by one name each: that of the field, or ``material`` and the name of the parameter."""
     inputs = dict(inputs)
     specimen, material = inputs.pop("specimen"), inputs.pop("material")
-    # a name changes no result
-    law = {f"material {key}": value for key, value in material.items() if key != "name"}
+    law = {f"material {key}": value for key, value in law_of(material).items()}
     # what others follow from comes first: the default of the loading follows from the material
     return {**law, **specimen, **inputs}
 

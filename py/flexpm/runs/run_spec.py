@@ -25,6 +25,8 @@ from .run_inputs import RunInputs
 
 __all__ = ["ELASTIC", "TESTS", "RunSpec"]
 
+#: Entries of a described material on which no result depends.
+LABELS = ("name", "made_for")
 #: Number of the way in which keys are made. A field that gets another default needs another number:
 #: keys leave defaults out.
 SCHEMA = 1
@@ -88,7 +90,9 @@ class RunSpec(RunInputs):
             one.size: options.get(one.name) or given[one.size] for one in kind.options if one.size
         }
         made = shape if is_solid(shape) else kind.shape
-        return spec_type(shape)(made, **{**kind.sizes_of(made), **_named(given)})
+        spec = spec_type(shape)(made, **{**kind.sizes_of(made), **_named(given)})
+        spec.require_memory()
+        return spec
 
     @classmethod
     def from_json(cls, content: Table) -> RunSpec:
@@ -190,8 +194,15 @@ def results_of(run: RunInputs) -> int:
 
 
 def described(material: Material, model: str) -> Table:
-    """Name of a material and its parameters in effect for a model; those of minerals, too."""
-    return {"name": material.name, **description(material, model)}
+    """Return name and calibration of a material and its parameters in effect for a model."""
+    made_for = material.made_for
+    calibrated = {} if made_for is None else {"made_for": made_for.to_dict()}
+    return {"name": material.name, **calibrated, **description(material, model)}
+
+
+def law_of(material: Table) -> Table:
+    """Return what results depend on of a described material."""
+    return {key: value for key, value in material.items() if key not in LABELS}
 
 
 def _named(values: Table) -> Table:
@@ -216,13 +227,13 @@ def _changes(spec: RunSpec | AnySpec) -> Table:
 
 
 def _material_changes(material: Table) -> Table:
-    """Parameters that have another value than a material's default; names do not count."""
+    """Parameters that have another value than a material's default; labels do not count."""
     defaults = {field.name: field.default for field in fields(Material)}
     found: Table = {}
-    for key, value in material.items():
+    for key, value in law_of(material).items():
         if key == "minerals":
             found[key] = [_material_changes(mineral) for mineral in value]
-        elif key != "name" and value is not None and value != defaults.get(key, MISSING):
+        elif value is not None and value != defaults.get(key, MISSING):
             found[key] = value
     return found
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 
 from ..errors import InputError
@@ -10,6 +11,8 @@ from ..require import LENGTH, Bounds, require_number, require_whole
 
 #: Edges of cells below this share of the mean diameter are collapsed: 0.35 mm for discs of 2-4 mm.
 SHORT_EDGE = 0.35 / 3.0
+#: Smallest and largest diameter of packed discs and spheres, unless they are given [m].
+DIAMETERS = (2e-3, 4e-3)
 
 
 def require_length(where: str, name: str, value: object) -> float:
@@ -42,6 +45,25 @@ def require_diameters(where: str, diameters: object, room: float) -> tuple[float
             f"dimension, {0.5 * room:.6g} m; choose smaller discs"
         )
     return smallest, largest
+
+
+def require_memory(where: str, grains: float, each: float) -> None:
+    """Refuse a packing that the machine has no memory for, before it is begun.
+
+    Args:
+        where: What is packed, for the message.
+        grains: Expected number of grains.
+        each: Memory of a grain [bytes].
+
+    Raises:
+        InputError: if the packing needs more than the memory of the machine.
+    """
+    needed, there = each * grains, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    if needed > there:
+        raise InputError(
+            f"{where}: grains = {grains:.4g}, need {needed / 1e9:.3g} GB of memory, must be at "
+            f"most {there / 1e9:.3g} GB; choose larger diameters or a smaller specimen, in m"
+        )
 
 
 def require_seed(where: str, seed: object) -> int:

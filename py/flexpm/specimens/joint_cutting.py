@@ -19,7 +19,7 @@ from ..joints.excavation import Excavation as Excavation
 from ..joints.excavation import excavation_of, line_from_edge, ring_of
 from ..joints.lines import EXCAVATION, Lines, Point, checked
 from ..progress import Progress
-from ..require import quoted, require_known, require_text
+from ..require import quoted, require_known, require_name
 from .kernel_input import call, columns
 from .outlines import polygon_outline
 
@@ -139,7 +139,7 @@ class Excavatable(ABC):
             )
         cut = self
         for name, given in excavations.items():
-            label = EXCAVATION + require_text("excavation: name", name)
+            label = EXCAVATION + require_name("excavation: name", name)
             if label in cut.joints:
                 raise InputError(f"excavation {name}: name = {name}, is there, must be another one")
             ring = ring_of(name, given, cut.mean_diameter)

@@ -25,6 +25,7 @@ def packed_discs(
 ) -> FloatArray:
     """Rows x, y, radius [m] of discs packed into a frame of an area [m2]."""
     assert spec.diameters is not None and spec.porosity is not None and spec.seed is not None
+    spec.require_memory(area)
     smallest, largest = spec.diameters
     count = call(disc_count, area, smallest, largest, spec.porosity)
     if count < _FEWEST_DISCS:

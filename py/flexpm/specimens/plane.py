@@ -131,6 +131,7 @@ def pack(spec: SpecimenSpec, progress: Progress | None) -> Filling:
             "cannot be packed again; load the saved specimen"
         )
     if spec.kind == "half-disc":
+        spec.require_memory()  # its arc has a chord for each grain
         assert spec.diameters is not None
         corners = half_disc_corners(spec.sizes["diameter"], 0.5 * sum(spec.diameters))
         return _sawn(where, spec, polygon_outline(where, corners), progress)

@@ -15,9 +15,11 @@ from ..errors import InputError
 from ..files import Table
 from ..joints.lines import EXCAVATION, Lines, checksum
 from .checks import (
+    DIAMETERS,
     SHORT_EDGE,
     require_diameters,
     require_length,
+    require_memory,
     require_porosity,
     require_seed,
     require_short_edge,
@@ -37,6 +39,8 @@ SIZES: dict[str, dict[str, float]] = {
 #: File beside the results of a run on a specimen that no packing gives again.
 GRAINS_FILE = "grains.json"
 _ALL_SIZES = ("width", "height", "diameter")
+#: Memory of packing, cells, file and picture [bytes a grain], measured on XX grains.
+_MEMORY = 6_000
 
 
 @dataclass(frozen=True)
@@ -71,7 +75,7 @@ class SpecimenSpec:
     height: float | None = None
     diameter: float | None = None
     thickness: float = 0.08
-    diameters: tuple[float, float] | None = (2e-3, 4e-3)
+    diameters: tuple[float, float] | None = DIAMETERS
     porosity: float | None = 0.10
     seed: int | None = 1
     short_edge: float = SHORT_EDGE
@@ -128,6 +132,32 @@ class SpecimenSpec:
     def is_laguerre(self) -> bool:
         """Whether all cells are whole Laguerre cells of discs: none was given, sawn or cut."""
         return self.cells is None and self.joints is None and not self.is_sawn
+
+    def require_memory(self, room: float | None = None) -> None:
+        """Refuse a packing that the machine has no memory for, before it is begun.
+
+        Args:
+            room: Area that is packed [m2]; None: the rectangle or the disc, or the block from which
+                half a disc is sawn.
+
+        Raises:
+            InputError: if it needs more than there is.
+        """
+        if self.diameters is None or self.porosity is None:
+            return
+        if room is None:
+            room = self._packed_area()
+        low, high = self.diameters
+        mean_square = (low * low + low * high + high * high) / 3.0
+        grains = room * (1.0 - self.porosity) / (0.25 * math.pi * mean_square)
+        require_memory(f"Specimen.{self.kind}", grains, _MEMORY)
+
+    def _packed_area(self) -> float:
+        """Area of the packing [m2]; 0 of a polygon, whose corners are not here."""
+        if self.kind == "rectangle":
+            return math.prod(self.sizes.values())
+        across = self.sizes.get("diameter", 0.0)
+        return (0.5 if self.kind == "half-disc" else 0.25 * math.pi) * across * across
 
     def with_joints(self, lines: Lines, origin: tuple[float, float] | None = None) -> SpecimenSpec:
         """The same specimen, cut by more joints, of a map if there is an origin.

@@ -322,6 +322,15 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         return self.spec.sizes
 
     @property
+    def extent(self) -> dict[str, float]:
+        """Sizes of the shape by their names [m]; of a polygon those of its bounding box."""
+        if self.dimensions:
+            return self.dimensions
+        assert not isinstance(self.outline, Circle)  # a circle has a diameter
+        width, height = np.ptp(self.outline, axis=0).tolist()
+        return {"width": width, "height": height}
+
+    @property
     def thickness(self) -> float:
         """Out of plane [m]."""
         return self.spec.thickness

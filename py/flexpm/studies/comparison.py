@@ -17,7 +17,7 @@ from ..files import Table, csv_text, output_folder, write_text
 from ..kinds.registry import kind_of
 from ..laboratory.carrying_out import carry_out
 from ..laboratory.plan import plan_run, require_tested
-from ..materials.material import COMPARED, Material
+from ..materials.material import Material, default_name
 from ..materials.material import load as load_material
 from ..materials.references import Reference, reference_of
 from ..progress import Progress
@@ -30,6 +30,7 @@ from ..runs.checkpoint import INTERVAL
 from ..runs.input_names import ranges
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec, described, split
+from ..specimens.space.any_spec import is_solid
 from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 from ..text import name_of
@@ -69,6 +70,16 @@ class Case:
         return f"{self.model}{pressure}"
 
     @property
+    def peak(self) -> float | None:
+        """Largest axial stress [Pa]; None without one."""
+        return None if self.result is None else self.result.peak_stress
+
+    @property
+    def status(self) -> str:
+        """Status of the result; ``failed`` without one."""
+        return "failed" if self.result is None else self.result.status
+
+    @property
     def failed(self) -> bool:
         """Whether there is no strength."""
         return self.result is None or self.result.failed
@@ -102,8 +113,10 @@ class Comparison:
             cracks_picture(folder / "cracks.png", shown)
         if self.envelopes:
             write_text(folder / "envelope.csv", _table([one.as_dict() for one in self.envelopes]))
+            runs = [(one.confinement, one.peak, one.status) for one in self.cases]
+            title = f"{self.test}, {name_of(self.cases[0].material.name)}, one packing"
             picture = folder / "envelope.png"
-            envelope_picture(picture, self.envelopes, self.reference)
+            envelope_picture(picture, self.envelopes, self.reference, title, runs)
 
 
 def compare(
@@ -127,7 +140,8 @@ def compare(
         specimen: The grains.
         models: Names of models.
         material: Preset, file, or material, or one for each model by its name; None, and a model
-            without one, for ``augig-table7``, which has all elastic sets.
+            without one, for the default of flexible grains: ``augig-table7`` in 2D,
+            ``augig3d-calibrated`` in 3D.
         confinements: Lateral pressures [Pa], for ``biaxial``; two or more give an envelope.
         out: Folder for tables and pictures, with a folder for each run; None writes nothing.
         progress: Called with (steps done, steps expected, text).
@@ -160,7 +174,7 @@ def compare(
             ),
             chosen,
         )
-        for model, chosen in _materials(models, material).items()
+        for model, chosen in _materials(models, material, specimen).items()
         for confinement in _each_once("confinements", confinements)
     ]
     if folder is not None:
@@ -217,13 +231,16 @@ def _cell(value: float | None, one: Shown) -> str:
 
 
 def _materials(
-    models: Sequence[str], material: Material | str | Mapping[str, Material | str] | None
+    models: Sequence[str],
+    material: Material | str | Mapping[str, Material | str] | None,
+    specimen: Specimen | SolidSpecimen,
 ) -> dict[str, Material]:
     """Material of each model."""
     names = _each_once("models", models)
+    shared = default_name(solid=is_solid(specimen.spec.kind))
     if isinstance(material, Mapping) and set(material) <= set(names):
-        return {model: load_material(material.get(model, COMPARED), model) for model in names}
-    chosen = COMPARED if material is None else material
+        return {model: load_material(material.get(model, shared), model) for model in names}
+    chosen = shared if material is None else material
     return {model: load_material(chosen, model) for model in names}
 
 

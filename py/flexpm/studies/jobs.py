@@ -26,7 +26,7 @@ from ..runs import input_names
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
-from ..specimens.space.any_spec import AnySpec
+from ..specimens.space.any_spec import AnySpec, is_solid
 
 #: Tests of a study; `elastic` is the direct solve.
 _TESTS = tuple(KINDS)
@@ -171,8 +171,10 @@ def make(inputs: Table, base: Path) -> Job:
         used["joint_origin"] = _place("study joint_origin", used["joint_origin"])
     model = used.get("model", RunSpec.model)
     assigned = [f"{name}={text_of(used[key])}" for name, key in changes.items()]
-    material = load_material(used.get("material"), model).with_set(assigned, model)
-    spec = RunSpec.from_options(test, used, material, _specimen(test, used))
+    specimen = _specimen(test, used)
+    material = load_material(used.get("material"), model, solid=is_solid(specimen.kind))
+    material = material.with_set(assigned, model)
+    spec = RunSpec.from_options(test, used, material, specimen)
     if kind_of(test).is_solve:
         output = Output(report=False)  # nothing moves
     return Job({"test": test, **used}, tuple(arguments(test, used)), spec, output=output)

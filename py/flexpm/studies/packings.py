@@ -232,8 +232,22 @@ def _draw(wanted: Sequence[Job], rows: pandas.DataFrame, folder: Path) -> None:
     if found := envelopes(rows):
         criteria = pandas.DataFrame([one.as_dict() for one in found])
         write_table(criteria, folder / "envelope")
-        rock = reference_of(wanted[0].spec.material["name"])
-        envelope_picture(folder / "envelope.png", found, rock)
+        first = wanted[0].spec
+        about = [(float(row["confinement"]), row) for _, row in rows.iterrows()]
+        title = f"{first.test}, {name_of(first.material['name'])}, several packings"
+        envelope_picture(
+            folder / "envelope.png",
+            found,
+            reference_of(first.material["name"]),
+            title,
+            [(pressure, _peak_of(row), str(row["status"])) for pressure, row in about],
+        )
+
+
+def _peak_of(row: pandas.Series) -> float | None:
+    """Peak of a run that counts [Pa], or None."""
+    counts = row["exit_code"] == 0 and not pandas.isna(row["peak_stress"])
+    return float(row["peak_stress"]) if counts else None
 
 
 def _peak(mean: pandas.Series, ending: str) -> tuple[float, float]:

@@ -163,7 +163,7 @@ def test_names_and_origins_are_of_maps_alone(tmp_path, capsys):
     for option in (["--name", "set"], ["--origin", "1,2"]):
         given = ["--joints", str(tmp_path / "a.csv"), *option, "--quiet"]
         assert cli.main(["specimen", "rectangle", *given, "--out", str(tmp_path / "o")]) == 2
-        assert "must be given with a map of joints" in capsys.readouterr().err
+        assert "needs a map of joints" in capsys.readouterr().err
 
 
 def test_a_study_reads_a_map_as_the_command_does(file):

@@ -143,7 +143,7 @@ def test_studies_have_networks_with_seeds_of_their_own(file, tmp_path):
     assert words[words.index("--network") + 1] == str(file)
     assert words[words.index("--network-seed") + 1] == "1"
     assert jobs.make(given, tmp_path).spec.specimen.networks[0]["seed"] == 3
-    with pytest.raises(InputError, match="network_seed = 1, must be given with network only"):
+    with pytest.raises(InputError, match="network_seed = 1, needs a network; give its file"):
         jobs.make({"test": "elastic", "network_seed": 1}, tmp_path)
     with pytest.raises(InputError, match="study network = 3, must be a text"):
         jobs.make({"test": "elastic", "network": 3}, tmp_path)
@@ -175,7 +175,7 @@ def test_the_command_refuses_in_one_line(file, tmp_path, capsys, old, new, messa
 def test_a_seed_without_a_network_is_refused(tmp_path, capsys):
     call = ["specimen", "disc", "--network-seed", "2", "--out", str(tmp_path / "out")]
     assert cli.main(call) == 2
-    assert "network_seed = 2, must be given with network only" in capsys.readouterr().err
+    assert "network_seed = 2, needs a network; give its file" in capsys.readouterr().err
 
 
 def test_a_set_that_cuts_nothing_reads_back(rectangle, tmp_path):

@@ -17,6 +17,7 @@ from flexpm.errors import InputError
 from flexpm.materials import mixing
 from flexpm.materials.interface import KEYS
 from flexpm.materials.material import Material
+from flexpm.materials.mineral import Mineral
 from flexpm.report import maps
 from flexpm.results import doubts
 from flexpm.runs.run_spec import RunSpec, described
@@ -232,6 +233,29 @@ def test_options_change_pairs_in_any_order_and_studies_take_them():
             rock().with_set({label: 1e6})
     with pytest.raises(InputError, match="must be a number"):
         rock().with_set(["interface.quartz/biotite.cohesion=much"])
+
+
+def named(*names):
+    minerals = [{"name": name, "fraction": 1.0 / len(names)} for name in names]
+    return Material.from_dict({**copy.deepcopy(ROCK), "mineral": minerals}, "rock")
+
+
+def test_a_key_that_names_two_pairs_is_refused():
+    rock = named("a", "b/c", "a/b", "c")
+    with pytest.raises(InputError, match="'a/b/c' is a with b/c or a/b with c; give the pair"):
+        rock.with_set({"interface.a/b/c.cohesion": 1e6})
+    found = rock.with_set({"interface.c/b/c.cohesion": 20e6, "interface.a/b/a/b.cohesion": 21e6})
+    assert [one.pair for one in found.interfaces] == [("b/c", "c"), ("a/b", "a/b")]
+    alone = named("a", "b/c").with_set({"interface.a/b/c.cohesion": 20e6})
+    assert [one.pair for one in alone.interfaces] == [("a", "b/c")]
+
+
+@pytest.mark.parametrize("name", ["", " ", "\t", "quartz ", " quartz", "qu\nartz", "qu\x1bartz"])
+def test_a_mineral_has_a_name_that_can_be_read_and_typed(name):
+    with pytest.raises(InputError, match="must be a name of printable characters without blanks"):
+        named(name, "feldspar")
+    with pytest.raises(InputError, match="must be a name of printable characters without blanks"):
+        Mineral(name, 1.0, {})
 
 
 def test_a_study_takes_keys_of_pairs(tmp_path):

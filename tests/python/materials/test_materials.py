@@ -55,10 +55,51 @@ def test_brittle_energies_are_the_elastic_energies_of_the_models_set(model):
     assert law["shear_fracture_energy"] == pytest.approx(48.80e6**2 / (2 * ratio * stiffness))
 
 
-def test_defaults_by_model():
-    assert materials.load(None, "flexible").name == "augig-table7"
-    for model in ("rigid", "inner", "inner-un", "jcfpm", "cohfrict"):
-        assert materials.load(None, model).name == "augig-table2-bilinear"
+@pytest.mark.parametrize("solid", [False, True])
+@pytest.mark.parametrize("model", ELASTIC_SET)
+def test_the_default_was_calibrated_for_the_dimension_and_the_kind_of_grains(model, solid):
+    flexible = model == "flexible"
+    names = {
+        False: ("augig-table7", "augig-table2-bilinear"),
+        True: ("augig3d-calibrated", "augig3d-calibrated-rigid"),
+    }[solid]
+    found = materials.load(None, model, solid=solid)
+    assert found.name == names[0 if flexible else 1]
+    assert found.made_for.suits(model, solid=solid)
+    assert not found.made_for.suits(model, solid=not solid)
+    assert not found.made_for.suits("rigid" if flexible else "flexible", solid=solid)
+
+
+def test_all_presets_know_the_grains_of_their_calibration():
+    for name in materials.preset_names():
+        made_for = materials.load(name).made_for
+        assert made_for.dimension == ("3D" if name.startswith("augig3d") else "2D")
+        # Table 2 was fitted for rigid grains; all packings had diameters of 2 to 4 mm
+        rigid = "table2" in name or name.endswith("rigid")
+        assert made_for.model == ("rigid" if rigid else "flexible")
+        assert made_for.mean_diameter == pytest.approx(3e-3)
+
+
+@pytest.mark.parametrize(
+    ("made_for", "message"),
+    [
+        ({"dimension": "2D"}, "made_for model is missing"),
+        ({"model": "rigid"}, "made_for dimension is missing"),
+        ({"dimension": "4D", "model": "rigid"}, "made_for dimension = '4D', unknown"),
+        ({"dimension": "2D", "model": "rigit"}, r"model = 'rigit', unknown \(did you mean rigid"),
+        ({"dimension": "2D", "model": "rigid", "mean": 1}, "made_for key = 'mean', unknown"),
+        (
+            {"dimension": "2D", "model": "rigid", "mean_diameter": 0},
+            "mean_diameter = 0 m, must be > 0",
+        ),
+        ("2D", "made_for = '2D', must be a table"),
+    ],
+)
+def test_made_for_is_checked(made_for, message):
+    plain = {"tensile_strength": 8e6, "cohesion": 3e7, "friction": 0.4, "softening": "brittle"}
+    elastic = {"rigid": {"normal_stiffness": 1e13, "shear_ratio": 0.3}}
+    with pytest.raises(InputError, match=message):
+        Material.from_dict({**plain, "elastic": elastic, "made_for": made_for})
 
 
 def test_set_acts_on_the_set_of_the_chosen_model_only():
@@ -231,16 +272,49 @@ def test_the_flexible_model_needs_its_triangles(key):
         material.law("flexible")
 
 
-@pytest.mark.parametrize("model", ["rigid", "inner", "jcfpm", "cohfrict"])
-@pytest.mark.parametrize("key", ["young", "poisson", "plane", "cohesion"])
-def test_a_key_that_a_model_does_not_use_is_refused(model, key):
+VALUES = {
+    "young": 6e10,
+    "poisson": 0.2,
+    "plane": "strain",
+    "softening": "brittle",
+    "tensile_fracture_energy": 1e-3,  # below the elastic energy
+    "shear_fracture_energy": 1e-3,
+    "cohesion": 3.1e7,
+}
+
+
+@pytest.mark.parametrize("model", ["rigid", "inner", "inner-un", "jcfpm", "cohfrict"])
+@pytest.mark.parametrize("key", VALUES)
+def test_a_key_that_a_model_does_not_use_neither_refuses_nor_changes_it(model, key):
     rock = materials.load("augig-table7")
-    value = {"young": 6e10, "poisson": 0.2, "plane": "strain", "cohesion": 3.1e7}[key]
     if is_used(key, model):
-        changed = rock.with_set({key: value}, model)
-        assert changed.law(model) != rock.law(model)
+        if VALUES[key] == 1e-3:
+            with pytest.raises(InputError, match="must not be below the elastic energy"):
+                rock.with_set({key: VALUES[key]}, model)
+        else:
+            assert rock.with_set({key: VALUES[key]}, model).law(model) != rock.law(model)
         return
-    with pytest.raises(InputError, match=f"set {key} = .*, is not used by model {model}"):
-        rock.with_set({key: value}, model)
-    with pytest.raises(InputError, match="is not used by model"):
-        rock.with_set({f"quartz.{key}": value}, model)
+    for name in (key, f"quartz.{key}"):
+        with pytest.warns(UserWarning, match=f"set {name} has no effect, model {model} does not"):
+            assert rock.with_set({name: VALUES[key]}, model) == rock
+
+
+WEAK = {
+    "tensile_strength": 8e6,
+    "cohesion": 3e7,
+    "friction": 0.4,
+    "tensile_fracture_energy": 1e-3,
+    "elastic": {"rigid": {"normal_stiffness": 1e13, "shear_ratio": 0.3}},
+}
+
+
+@pytest.mark.parametrize("model", ["jcfpm", "cohfrict"])
+def test_strengths_of_yades_spheres_are_not_bounded_by_fracture_energies(model):
+    strengths = ["tensile_strength=8e6", "cohesion=160e6", "friction=0.176"]
+    rock = materials.load("augig-table2-bilinear")
+    with pytest.raises(InputError, match="shear_fracture_energy"):
+        rock.with_set(strengths, "rigid")
+    law = rock.with_set(strengths, model).law(model)
+    assert (law["tensile_strength"], law["cohesion"], law["friction"]) == (8e6, 160e6, 0.176)
+    # nor is a material refused whose file has such energies
+    assert Material.from_dict({**WEAK, "shear_fracture_energy": 1e-3}).law(model)["cohesion"] == 3e7

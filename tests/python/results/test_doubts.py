@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 
 import pytest
@@ -12,7 +13,7 @@ from flexpm.materials import material as materials
 from flexpm.results import doubts
 from flexpm.runs.input_names import models_of, shape_of
 from flexpm.runs.run_spec import TESTS, RunSpec, described
-from flexpm.specimens.space.any_spec import spec_type
+from flexpm.specimens.space.any_spec import is_solid, spec_type
 from flexpm.specimens.spec import SpecimenSpec
 
 SAW = "--set joint.saw.normal_stiffness=1e13 --set joint.saw.shear_stiffness=1e13"
@@ -22,13 +23,18 @@ TINY = ["--width", "0.012", "--height", "0.024", "--quiet"]
 @pytest.mark.parametrize("preset", [None, *materials.preset_names()])
 @pytest.mark.parametrize("test", TESTS)
 def test_no_preset_and_no_default_is_doubtful(test, preset):
+    shape = shape_of(test)
+    specimen, solid = spec_type(shape)(shape), is_solid(shape)
     for model in models_of(test):
-        chosen = materials.load(preset, model)
+        chosen = materials.load(preset, model, solid=solid)
         if materials.elastic_set_name(model) in chosen.elastic:
-            shape = shape_of(test)
-            specimen = spec_type(shape)(shape)
             spec = RunSpec(test, specimen, described(chosen, model), model)
-            assert doubts.of_inputs(spec.to_json()) == []
+            told = doubts.of_inputs(spec.to_json())
+            of_another = not chosen.made_for.suits(model, solid=solid)
+            assert [line.partition(",")[0] for line in told] == [
+                f"material = {preset}"
+            ] * of_another
+            assert not (of_another and preset is None)
 
 
 @pytest.mark.parametrize(
@@ -38,8 +44,6 @@ def test_no_preset_and_no_default_is_doubtful(test, preset):
         ("--set tensile_strength=8.5", "tensile_strength = 8.5"),
         ("--set friction=30", "friction = 30"),
         ("--set young=25.8", "young = 25.8"),
-        ("--width 20 --height 40", "width = 20"),
-        ("--diameters 3,4 --width 12 --height 24", "height = 24"),
         (f"{SAW} --set joint.saw.friction=30", "joint saw friction = 30"),
     ],
 )
@@ -47,6 +51,86 @@ def test_inputs_in_other_units_are_said_before_the_run(capsys, monkeypatch, argu
     monkeypatch.setattr(cli.inputs, "load_yade", lambda: 1 / 0)  # nothing runs
     assert cli.main(["elastic", *TINY, *arguments.split()]) == 3
     assert f"warning: {says}, is unusual" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (
+            "--diameters 2,4 --width 20 --height 40",
+            "width = 20 m, height = 40 m, unusual: specimens have 1e-06",
+        ),
+        ("--width 0.02 --height 2.1", "height = 2.1 m, unusual: specimens have 1e-06 to 2 m"),
+        ("--thickness 80", "thickness = 80 m, unusual: specimens have 1e-06 to 2 m"),
+        # one line, though grains are unusual, too
+        ("--diameters 0.3,0.4 --width 1.2 --height 2.4", "height = 2.4 m, unusual"),
+        ("--diameters 0.1,0.2 --width 1.2 --height 1.9", "diameters of grains = 0.1 to 0.2 m"),
+        (
+            "--diameters 5e-7,2e-6 --width 1e-5 --height 2e-5",
+            "diameters of grains = 5e-07 to 2e-06 m, unusual: grains have 1e-06 to 0.1 m",
+        ),
+        (
+            "--shape box --width 0.02 --depth 20 --height 0.04 --diameters 0.003,0.01",
+            "depth = 20 m",
+        ),
+        ("--shape box --width 1 --depth 1 --height 1 --diameters 0.1,0.2", "diameters of grains"),
+        ("--width 2 --height 2 --diameters 0.1,0.1", ""),
+        ("--width 1e-5 --height 2e-5 --diameters 1e-6,2e-6", ""),
+    ],
+)
+def test_lengths_in_other_units_are_said_once_before_the_run(capsys, monkeypatch, arguments, says):
+    monkeypatch.setattr(cli.inputs, "load_yade", lambda: 1 / 0)  # nothing runs
+    assert cli.main(["elastic", *TINY, *arguments.split()]) == 3
+    told = [line for line in capsys.readouterr().out.splitlines() if line.startswith("warning")]
+    assert len(told) == bool(says)
+    assert not says or (says in told[0] and told[0].endswith("; the unit is m, 20 mm is 0.02"))
+
+
+@pytest.mark.parametrize("how", ["polygon", "image", "micrometres"])
+def test_lengths_of_given_grains_are_told(how, capsys):
+    flexpm = pytest.importorskip("flexpm")
+    if how == "polygon":  # its sizes are in no input
+        corners = [(0.0, 0.0), (4.967, 0.0), (4.967, 4.417), (1.0, 4.0)]
+        made = flexpm.Specimen.polygon(corners, 0.01, diameters=(0.4, 0.6))
+        says = "width = 4.967 m, height = 4.417 m"
+    else:
+        pixel = 0.5 if how == "image" else 1e-7
+        made = flexpm.Specimen.from_labels([[1, 1, 2, 2]] * 6 + [[3, 3, 4, 4]] * 6, pixel, 1.0)
+        says = "width = 2 m, height = 6 m" if how == "image" else "width = 4e-07 m"
+    (told,) = doubts.of_lengths(made.extent, (made.mean_diameter,))
+    assert told.startswith(says.replace("width = 2 m, ", "")), told
+    rig = flexpm.PartRig(flexpm.build(made))
+    assert [line for line in rig.warnings if "the unit is m" in line] == [told]
+
+
+@pytest.mark.parametrize(
+    ("material", "model", "shape", "instead"),
+    [
+        ("augig-table7", "flexible", "box", "take augig3d-calibrated or"),
+        ("augig3d-calibrated", "flexible", "rectangle", "take augig-table7 or"),
+        ("augig3d-calibrated", "rigid", "box", "take augig3d-calibrated-rigid or"),
+        ("augig3d-calibrated", "jcfpm", "cylinder", "take augig3d-calibrated-rigid or"),
+        ("augig-table7", "rigid", "rectangle", "take augig-table2-bilinear or"),
+        ("augig-table2-brittle", "flexible", "rectangle", "take augig-table7 or"),
+        ("augig3d-calibrated-rigid", "cohfrict", "box", None),
+        ("augig-table2-bilinear", "inner", "rectangle", None),
+    ],
+)
+def test_a_material_of_another_dimension_or_model_is_told_once(material, model, shape, instead):
+    chosen = materials.load(material)
+    spec = RunSpec("uniaxial", spec_type(shape)(shape), described(chosen, model), model)
+    told = doubts.of_inputs(spec.to_json())
+    assert len(told) == (instead is not None)
+    if instead:
+        there, here = chosen.made_for, "2D" if shape == "rectangle" else "3D"
+        assert f"in {there.dimension} for model {there.model}, the run is {here}" in told[0]
+        assert instead in told[0]
+    # a file that does not say what it was made for gives none, and the key is the same
+    unknown = dataclasses.replace(chosen, made_for=None)
+    plain = RunSpec("uniaxial", spec_type(shape)(shape), described(unknown, model), model)
+    assert doubts.of_inputs(plain.to_json()) == []
+    assert plain.key() == spec.key()
+    assert RunSpec.from_json(spec.to_json()) == spec
 
 
 def test_a_normal_stress_in_other_units_is_doubtful():

@@ -355,7 +355,14 @@ def test_joints_that_cannot_be(rectangle, joints, message):
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"friction": 0.5}, r"\[joint.a\] normal_stiffness is missing"),
+        (
+            {"friction": 0.5},
+            r"\[joint.a\] normal_stiffness, shear_stiffness are missing; give all keys of a new",
+        ),
+        (
+            {"normal_stiffness": 1e14, "shear_stiffness": 3e13},
+            r"\[joint.a\] friction is missing; give all keys of a new joint together",
+        ),
         ({"open": True, "cohesion": 1e6}, r"\[joint.a\] cohesion = 1000000.0 Pa, must be 0"),
         ({"frictoin": 0.5}, r"\[joint.a\] key = 'frictoin', unknown \(did you mean friction"),
         ({"open": 1}, r"\[joint.a\] open = 1, must be true or false"),

@@ -33,7 +33,7 @@ from ...runs.asked import write_report
 from ...runs.loading_rate import WAITING_MODELS, rates_of
 from ...runs.output import BEGUN, RESULT, is_of_flexpm, refuse_other_kind
 from ...runs.run_inputs import RunInputs
-from ...runs.run_spec import described, results_of
+from ...runs.run_spec import described, law_of, results_of
 from ...runs.written import FILES, write_files
 from ...specimens.files import given
 from ..readings import RigReadings, ended_rising
@@ -209,8 +209,13 @@ def _is_earlier(file: Path, inputs: Table) -> bool:
 
 
 def _fixed(inputs: Table, name: str) -> object:
-    """An input without the places of parts, whose last digits come from where they are now."""
+    """An input without labels of a material and without places of parts.
+
+    The last digits of a place come from where the part is now.
+    """
     value = inputs.get(name)
+    if name == "material":
+        return law_of(inputs[name])
     if name == "parts":
         moving = ("place", "face")  # without erased grains a face is shorter
         return [{key: one[key] for key in one if key not in moving} for one in inputs.get(name, ())]

@@ -34,6 +34,7 @@ from ...results.result_checks import UNFINISHED
 from ...runs.asked import write_report
 from ...runs.checkpoint import INTERVAL, Checkpoint
 from ...runs.output import BEGUN, RESULT, Output, is_of_flexpm, refuse_other_kind
+from ...runs.run_spec import law_of
 from ...runs.runner import Runner
 from ...runs.written import FILES, about, draw_pictures, write_numbers
 from ...specimens.files import given
@@ -273,7 +274,7 @@ class KeptTest:
             return []
         try:
             there = read_json(file)["inputs"]
-            if all(there[name] == value for name, value in self._before.items() if name in _FIXED):
+            if _fixed(there) == _fixed(self._before):
                 return [*there["calls"]]
         except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
             pass
@@ -296,6 +297,14 @@ _FIXED = (
     "gravity",
     "damping",
 )
+
+
+def _fixed(inputs: Table) -> Table:
+    """Inputs that a test begins with, without labels."""
+    found = {name: inputs[name] for name in _FIXED if name in inputs}
+    return {**found, "material": law_of(inputs["material"])}
+
+
 #: Tests whose script goes on; the scene is that of the last one.
 _open: list[KeptTest] = []
 

@@ -99,14 +99,15 @@ class SpecimenSource:
         elif joint_name is not None or joint_origin is not None:
             given = joint_name if joint_origin is None else joint_origin
             raise InputError(
-                f"name or origin = {given}, must be given with a map of joints, a .geojson file"
+                f"name or origin = {given}, needs a map of joints; give a .geojson file or leave "
+                "it out"
             )
         elif joints is not None:
             lines = joint_lines.read(joints)
         if network is None:
             if network_seed is not None:
                 raise InputError(
-                    f"network_seed = {network_seed}, must be given with network only; leave it out"
+                    f"network_seed = {network_seed}, needs a network; give its file or leave it out"
                 )
             return cls(packed, file, lines, origin=origin, notes=notes)
         from ...joints.network import Network

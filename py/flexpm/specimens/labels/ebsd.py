@@ -12,7 +12,7 @@ import numpy as np
 from ...arrays import IntArray
 from ...errors import InputError
 from ...files import Table, load_toml
-from ...require import Bounds, quoted, require_known, require_number, require_one_of, require_text
+from ...require import Bounds, quoted, require_known, require_name, require_number, require_one_of
 from . import ang, ctf
 from .laue import misorientations
 from .orientation_map import OrientationMap
@@ -70,7 +70,7 @@ def read_phases(path: Path, found: OrientationMap) -> dict[str, str]:
     given: dict[str, str] = {}
     for key, name in load_toml(path, "phases").items():
         require_known("phases key", key, known)
-        given[key] = require_text(f"phases {quoted(key)}", name)
+        given[key] = require_name(f"phases {quoted(key)}", name)
     present = {known[index] for index in np.unique(found.phase[found.phase >= 0]).tolist()}
     for name in known:
         if name in present and name not in given:

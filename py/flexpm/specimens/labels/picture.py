@@ -20,7 +20,7 @@ import numpy as np
 from ...arrays import IntArray
 from ...errors import InputError
 from ...files import Table, load_toml
-from ...require import quoted, require_text
+from ...require import quoted, require_name
 from . import tesr
 from .given import MOST_PIXELS, NO_VOLUMES, whole_labels
 
@@ -187,7 +187,7 @@ def read_phases(path: Path, picture: Picture) -> dict[int, str]:
     content: Table = load_toml(path, "phases")
     found: dict[int, str] = {}
     for key, name in content.items():
-        found[_label(key, picture)] = require_text(f"phases {quoted(key)}", name)
+        found[_label(key, picture)] = require_name(f"phases {quoted(key)}", name)
     if not found:
         raise InputError(f"phases = {quoted(str(path))}, is empty; give label = mineral")
     _require_all(found, picture, path)

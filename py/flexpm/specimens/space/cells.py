@@ -61,6 +61,7 @@ def require_made_from(spec: SolidSpec, spheres: FloatArray, removed: int) -> Non
 def packed_spheres(where: str, spec: SolidSpec, progress: Progress | None) -> FloatArray:
     """Rows x, y, z, radius [m] of spheres packed into the outline of a specimen."""
     assert spec.diameters is not None and spec.porosity is not None and spec.seed is not None
+    spec.require_memory()
     smallest, largest = spec.diameters
     count = call(sphere_count, spec.volume, smallest, largest, spec.porosity)
     if count < _FEWEST_SPHERES:

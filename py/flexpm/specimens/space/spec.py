@@ -7,14 +7,15 @@ Nothing heavy is loaded here, so that inputs are checked before YADE starts.
 from __future__ import annotations
 
 import math
-import os
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ...errors import InputError
 from ..checks import (
+    DIAMETERS,
     require_diameters,
     require_length,
+    require_memory,
     require_porosity,
     require_seed,
     require_short_edge,
@@ -58,7 +59,7 @@ class SolidSpec:
     depth: float | None = None
     height: float | None = None
     diameter: float | None = None
-    diameters: tuple[float, float] | None = (2e-3, 4e-3)
+    diameters: tuple[float, float] | None = DIAMETERS
     porosity: float | None = 0.10
     seed: int | None = 1
     short_edge: float = SHORT_EDGE
@@ -85,7 +86,6 @@ class SolidSpec:
             self._set("diameters", require_diameters(where, self.diameters, room))
             self._set("porosity", require_porosity(where, self.porosity))
             self._set("seed", require_seed(where, self.seed))
-            self._require_memory(where)
         elif not (self.diameters is None and self.porosity is None and self.seed is None):
             raise InputError(
                 f"{where}: spheres = {self.spheres}, must not be given with diameters, porosity or "
@@ -123,18 +123,14 @@ class SolidSpec:
         whole = 0.25 * math.pi * diameter**2 * length
         return 0.5 * whole if self.kind == "solid-half-disc" else whole
 
-    def _require_memory(self, where: str) -> None:
+    def require_memory(self) -> None:
         """Refuse a packing that the machine has no memory for, before it is begun."""
-        assert self.diameters is not None and self.porosity is not None
+        if self.diameters is None or self.porosity is None:
+            return
         low, high = self.diameters
         mean_cube = 0.25 * (low + high) * (low * low + high * high)
         grains = self.volume * (1.0 - self.porosity) / (math.pi / 6.0 * mean_cube)
-        needed, there = _MEMORY * grains, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-        if needed > there:
-            raise InputError(
-                f"{where}: grains = {grains:.4g}, need {needed / 1e9:.3g} GB of memory, must be at "
-                f"most {there / 1e9:.3g} GB; choose larger diameters or a smaller specimen"
-            )
+        require_memory(f"Specimen.{self.kind}", grains, _MEMORY)
 
     def _size(self, where: str, name: str) -> float | None:
         """A size that the shape has, or None."""

@@ -197,6 +197,11 @@ class SolidSpecimen(PlaneOnly):
         return self.spec.sizes
 
     @property
+    def extent(self) -> dict[str, float]:
+        """Sizes of the shape by their names [m]."""
+        return self.dimensions
+
+    @property
     def seed(self) -> int | None:
         """Seed of the packing; None for given spheres."""
         return self.spec.seed
