@@ -18,6 +18,7 @@ from ..kinds.registry import ELASTIC, KINDS, TESTS, names
 from ..kinds.test_kind import TestKind
 from ..materials import interface
 from ..materials.keys import ELASTIC_KEYS, ELASTIC_SET, UNITS
+from ..materials.made_for import MadeFor, dimension_of
 from ..require import (
     NOT_NEGATIVE,
     POSITIVE,
@@ -34,7 +35,7 @@ from ..require import (
 )
 from ..results import strength
 from ..runs import input_names
-from ..specimens.checks import require_seed
+from ..specimens.checks import DIAMETERS, require_seed
 from ..specimens.space.any_spec import is_solid
 from .study import MOST_RUNS, flat
 
@@ -117,6 +118,11 @@ class Runs:
     disc_seeds: Sequence[int]  #: of the measures that discs alone tell
     of_test: Mapping[str, Table] = field(default_factory=dict)  #: other options, by the test
 
+    def shape_of(self, test: str) -> str:
+        """Shape of the specimens of a test."""
+        options = {**self.options, **self.of_test.get(test, {})}
+        return input_names.shape_of(test, options.get("shape"), options.get("depth"))
+
     def seeds_of(self, target: Target) -> Sequence[int]:
         """Seeds of the packings that tell a measure."""
         tests = MEASURES[target.name]
@@ -149,6 +155,18 @@ class Calibration:
             return self.material
         return str(self.base / self.material)
 
+    @property
+    def is_solid(self) -> bool:
+        """Whether the specimens are 3D."""
+        tests = {test for target in self.targets for test, _ in self.tests(target)}
+        return any(is_solid(self.screen.shape_of(test)) for test in tests)
+
+    @property
+    def made_for(self) -> MadeFor | None:
+        """Specimens and model of the calibration; None: unknown."""
+        low, high = self.verify.options.get("diameters", DIAMETERS)
+        return MadeFor(dimension_of(solid=self.is_solid), self.model, 0.5 * (low + high))
+
     def of_kind(self, elastic: bool) -> tuple[list[Target], list[str]]:
         """Targets and free keys that the elastic solve tells, or the others."""
         targets = [t for t in self.targets if (t.name in ELASTIC_MEASURES) == elastic]
@@ -161,6 +179,13 @@ class Calibration:
             tests_of = _OF_ENVELOPE[is_solid(self.screen.options.get("shape", ""))]
             return [(tests_of[bool(c)], c) for c in self.confinements]
         return [(test, 0.0) for test in tests]
+
+    def entries(self, target: Target) -> list[tuple[tuple[str, float], str]]:
+        """Test with its confinement [Pa] and key of result.json of each part of a measure."""
+        if target.name in _TOLD or target.name in QUOTIENTS:
+            names = QUOTIENTS.get(target.name, (target.name,))
+            return [((test, 0.0), key) for test, key in (_TOLD[name] for name in names)]
+        return [(test, "peak_stress") for test in self.tests(target)]
 
     def measure(self, target: Target, found: Mapping[tuple[str, float], Table]) -> float | None:
         """A measure of one packing, from its results by (test, confinement); None if missing."""

@@ -42,8 +42,7 @@ def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
     """
     rows = []
     for target in plan.targets:
-        usual = (1e-6, "MPa") if target.name in MEASURES else (1.0, "")
-        factor, unit = _UNITS.get(key_of(target.name), usual)
+        factor, unit = unit_of(target.name)
         best = outcome.best
         mean, spread, error = (of(target.name) for of in (best.mean, best.spread, best.error))
         text = "-" if mean is None else f"{factor * mean:.4g}"
@@ -58,6 +57,12 @@ def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
     if ratio is not None:
         rows.append(("direct over indirect tension", f"{ratio:.2f}; granites {_GRANITES:.2f}"))
     return rows
+
+
+def unit_of(measure: str) -> tuple[float, str]:
+    """Factor and unit in which a measure is shown."""
+    usual = (1e-6, "MPa") if measure in MEASURES else (1.0, "")
+    return _UNITS.get(key_of(measure), usual)
 
 
 def _tensile_ratio(best: Evaluation) -> float | None:
@@ -75,7 +80,8 @@ def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcom
     """Write the material with the best values as a TOML file and return it."""
     assignments = [f"{key}={rounded(value)!r}" for key, value in outcome.best.values.items()]
     found = start.with_set(assignments, plan.model)
-    content = _without_none(dataclasses.asdict(found)) | {"name": plan.name}
+    found = dataclasses.replace(found, name=plan.name, made_for=plan.made_for)
+    content = _without_none(dataclasses.asdict(found))
     kinds, joints, pairs = (content.pop(key) for key in ("minerals", "joints", "interfaces"))
     # other models' sets are those of the rock that the search started from
     content["elastic"] = _only_of(plan.model, content["elastic"])

@@ -27,12 +27,13 @@ from scipy.optimize import least_squares
 
 from .._vendor import on_path
 from ..arrays import FloatArray
-from ..errors import InputError, SimulationError
+from ..errors import InputError
 from ..files import Table, output_folder
 from ..kinds.registry import ELASTIC
 from ..materials.keys import is_used
 from ..progress import Progress
 from . import jobs
+from .calibration_losses import loss
 from .calibration_problem import Calibration, Runs, Target
 from .calibration_verdict import Verdict, is_met, judge
 from .jobs import Job
@@ -53,7 +54,12 @@ _ELASTIC_STEP = 0.01
 #: hundredth of its tolerance.
 _ELASTIC_SLOPE = 0.1
 
+#: Steps of the elastic fit, each with a set for each key, as a calibration usually has.
+_ELASTIC_FITS = 3
+
 Values = dict[str, float]
+#: By measure one value a packing; None: it has none.
+Measures = dict[str, list[float | None]]
 
 
 @dataclass
@@ -63,9 +69,11 @@ class Evaluation:
     round: int
     stage: str  #: elastic, screen or verify
     values: Values
-    measures: dict[str, list[float | None]]  #: one a packing
+    measures: Measures
     targets: dict[str, float]  #: what the measures were compared with
     cost: float  #: half the sum of the squared residuals [-]
+    #: by measure why packings have none, and what to change
+    lost: dict[str, str] = field(default_factory=dict)
 
     def mean(self, name: str) -> float | None:
         """Mean of a measure over the packings, None if one is missing."""
@@ -117,7 +125,6 @@ def run(
 
     Raises:
         InputError: if a key has no number to start from, or no target tells one.
-        SimulationError: if no set gave all measures.
     """
     folder = output_folder(out)
     values = {key: started(plan, key, start) for key in plan.free}
@@ -196,7 +203,7 @@ class Search:
         return dict(zip(keys, (found.x * start).tolist(), strict=True))
 
     def strengths(self, values: Values) -> Evaluation:
-        """The set with the least verified cost of all rounds."""
+        """The set with the least verified cost of all rounds, one with all measures first."""
         targets, keys = self._plan.of_kind(elastic=False)
         if not keys or not targets:
             return self._verify(values)
@@ -212,13 +219,7 @@ class Search:
             aims = [t.corrected(tried[0].mean(t.name), best[0].mean(t.name)) for t in targets]
             values = tried[0].values
         complete = [e for e in verified if all(e.mean(t.name) is not None for t in targets)]
-        if not complete:
-            names = [t.name for t in targets if verified[-1].mean(t.name) is None]
-            raise SimulationError(
-                f"calibrate: no verified set gave all measures, the last none of "
-                f"{', '.join(names)}; see history.csv and the messages in runs"
-            )
-        return min(complete, key=lambda e: e.cost)
+        return min(complete or verified, key=lambda e: e.cost)
 
     def _screen(self, values: Values, keys: list[str], aims: list[Target]) -> list[Evaluation]:
         """Search on the small specimen; what was tried, best first."""
@@ -302,25 +303,26 @@ class Search:
         """Run what the targets need with a set of free keys."""
         plan = self._plan
         runs = plan.screen if stage == "screen" else plan.verify
-        measures = self._measures(runs, values, targets)
-        evaluation = Evaluation(
-            self._round, stage, dict(values), measures, {t.name: t.value for t in targets}, 0.0
-        )
+        measures, lost = self._measures(runs, values, targets)
+        aims = {t.name: t.value for t in targets}
+        evaluation = Evaluation(self._round, stage, dict(values), measures, aims, 0.0, lost)
         evaluation.cost = 0.5 * float(np.sum(self._residuals(evaluation, targets) ** 2))
         self.history.append(evaluation)
         return evaluation
 
     def _measures(
         self, runs: Runs, values: Values, targets: Sequence[Target]
-    ) -> dict[str, list[float | None]]:
+    ) -> tuple[Measures, dict[str, str]]:
+        """Values of each measure, one a packing, and why there are none."""
         plan = self._plan
         try:
             wanted = _jobs(plan, runs, values, targets)
-        except InputError:
+        except InputError as error:
             if not self.history:
                 raise  # wrong from the start
             # keys that do not go together
-            return {t.name: [None] * len(runs.seeds_of(t)) for t in targets}
+            nothing: Measures = {t.name: [None] * len(runs.seeds_of(t)) for t in targets}
+            return nothing, {t.name: f"refused: {error}" for t in targets}
         done = len(self.history)
         assert self._pool is not None
         outcomes = self._pool.run(
@@ -330,12 +332,30 @@ class Search:
             ),
         )
         found: dict[int, dict[tuple[str, float], Table]] = defaultdict(dict)
+        ended: dict[int, dict[tuple[str, float], Table]] = defaultdict(dict)
         for (seed, test), outcome in zip(wanted, outcomes, strict=True):
-            found[seed][test] = outcome["result"]
-        return {t.name: [plan.measure(t, found[s]) for s in runs.seeds_of(t)] for t in targets}
+            found[seed][test], ended[seed][test] = outcome["result"], outcome
+        measures = {t.name: [plan.measure(t, found[s]) for s in runs.seeds_of(t)] for t in targets}
+        lost = [t for t in targets if None in measures[t.name]]
+        return measures, {t.name: loss(plan, t, ended, runs.seeds_of(t)) for t in lost}
 
     def _expected(self) -> int:
-        return self._plan.rounds * (self._plan.evaluations + self._plan.candidates + 1) + 10
+        """Most sets of the calibration: those of the elastic fit, then those of all rounds.
+
+        A round has its start, the search and the verified sets.
+        """
+        plan = self._plan
+        targets, keys = plan.of_kind(elastic=False)
+        if not (keys and targets):
+            return self._elastic_sets() + 1
+        return self._elastic_sets() + plan.rounds * (1 + plan.evaluations + plan.candidates)
+
+    def _elastic_sets(self) -> int:
+        """Sets of the elastic fit: those that were tried once it is over, before an estimate."""
+        keys = self._plan.of_kind(elastic=True)[1]
+        tried = sum(e.stage == "elastic" for e in self.history)
+        over = tried < len(self.history)
+        return tried if over or not keys else max(tried + 1, _ELASTIC_FITS * (len(keys) + 1))
 
     @staticmethod
     def _residuals(evaluation: Evaluation, targets: Sequence[Target]) -> FloatArray:

@@ -44,6 +44,8 @@ class Tried(Protocol):
 
     @property
     def values(self) -> Mapping[str, float]: ...  # noqa: D102
+    @property
+    def lost(self) -> Mapping[str, str]: ...  # noqa: D102
     def mean(self, name: str) -> float | None: ...  # noqa: D102
     def error(self, name: str) -> float | None: ...  # noqa: D102
 
@@ -56,6 +58,8 @@ class Verdict:
     advice: list[str]  #: what to try, a line each
     #: by key the part of the scatter within its bounds that the targets leave it [-]
     left: dict[str, float] = field(default_factory=dict)
+    #: by target: name, value, tolerance, mean, error, met, and what to change
+    measures: list[Table] = field(default_factory=list)
 
     @property
     def open_keys(self) -> list[str]:
@@ -68,7 +72,12 @@ class Verdict:
 
     def write(self, folder: Path) -> None:
         """Write ``verdict.json``, which the page is made from."""
-        content = {"missed": self.missed, "advice": self.lines(), "left": self.left}
+        content = {
+            "missed": self.missed,
+            "advice": self.lines(),
+            "left": self.left,
+            "measures": self.measures,
+        }
         write_text(folder / FILE, json_text(content))
 
 
@@ -81,19 +90,25 @@ def slopes(tried: Sequence[Tried], keys: Sequence[str], aims: Sequence[Aim]) -> 
     """Change of ln(measure) with ln(key) (targets, keys) [-], 0 where nothing was tried.
 
     Args:
-        tried: Sets of values; those without one of the measures are left out.
+        tried: Sets of values; a set without a measure tells nothing about that measure.
         keys: Free keys.
         aims: Targets.
     """
-    rows = [(one, [one.mean(aim.name) for aim in aims]) for one in tried]
-    whole = [(one, means) for one, means in rows if all(mean and mean > 0.0 for mean in means)]
     found = np.zeros((len(aims), len(keys)))
-    if len(whole) < 2:
-        return found
-    x = np.log([[one.values[key] for key in keys] for one, _ in whole])
-    y = np.log(np.array([means for _, means in whole], dtype=float))
-    found = np.linalg.lstsq(x - x.mean(axis=0), y - y.mean(axis=0), rcond=1e-6)[0].T
-    return np.asarray(found, dtype=float)
+    for row, aim in enumerate(aims):
+        whole = _with_measure(tried, aim)
+        if len(whole) < 2:
+            continue
+        x = np.log([[one.values[key] for key in keys] for one, _ in whole])
+        y = np.log([mean for _, mean in whole])
+        found[row] = np.linalg.lstsq(x - x.mean(axis=0), y - y.mean(), rcond=1e-6)[0]
+    return found
+
+
+def _with_measure(tried: Sequence[Tried], aim: Aim) -> list[tuple[Tried, float]]:
+    """Sets of values with the mean of a measure, those that have one."""
+    means = [(one, one.mean(aim.name)) for one in tried]
+    return [(one, mean) for one, mean in means if mean is not None and mean > 0.0]
 
 
 def left_open(
@@ -124,6 +139,7 @@ def advice(
     free: Mapping[str, tuple[float, float]],
     *,
     used_up: bool,
+    losses: Mapping[str, str] | None = None,
 ) -> list[str]:
     """What to try, a line for each reason why targets are missed.
 
@@ -133,12 +149,17 @@ def advice(
         slope: Change of ln(measure) with ln(key), by target and key [-].
         free: Bounds of the keys.
         used_up: Whether the search has ended with its evaluations.
+        losses: By target, the sets of the search without its measure, as a text.
     """
     lines = []
     for aim in missed:
         mean, error = best.mean(aim.name), best.error(aim.name)
         if mean is None:
-            lines.append(f"{aim.name}: not measured; look at the runs of history.csv")
+            why = best.lost.get(aim.name, "see history.csv and the messages in runs")
+            lines.append(f"{aim.name}: not measured, {why}")
+            continue
+        if losses and aim.name in losses:
+            lines.append(f"{aim.name}: {losses[aim.name]}")
             continue
         of_key = slope.get(aim.name, {})
         moving = [key for key, one in of_key.items() if abs(2.0**one - 1.0) >= _IDLE]
@@ -205,16 +226,46 @@ def judge(
     """
     slope: dict[str, Table] = {}
     left: dict[str, float] = {}
+    losses: dict[str, str] = {}
     for tried, keys, targets in parts:
         if not keys or not targets:
             continue
         found = slopes(tried, keys, targets)
         left |= left_open(found, keys, free, [*targets])
         rows = zip(targets, found.tolist(), strict=True)
-        slope |= {aim.name: dict(zip(keys, row, strict=True)) for aim, row in rows}
+        slope |= {
+            aim.name: dict(zip(keys, row, strict=True))
+            for aim, row in rows
+            if len(_with_measure(tried, aim)) > 1
+        }
+        losses |= {aim.name: text for aim in targets if (text := _loss(tried, aim))}
     missed = [aim for aim in aims if not is_met(aim, best.mean(aim.name))]
-    told = advice(missed, best, slope, free, used_up=used_up)
-    return Verdict([aim.name for aim in missed], told, left)
+    told = advice(missed, best, slope, free, used_up=used_up, losses=losses)
+    measures = [_measure(aim, best, told) for aim in aims]
+    return Verdict([aim.name for aim in missed], told, left, measures)
+
+
+def _loss(tried: Sequence[Tried], aim: Aim) -> str:
+    """Tell that most sets of a search had no value of a measure; empty if most had one."""
+    lost = [one for one in tried if one.mean(aim.name) is None]
+    if 2 * len(lost) <= len(tried):
+        return ""
+    why = lost[-1].lost.get(aim.name, "see history.csv and the messages in runs")
+    return f"the search measured it in {len(tried) - len(lost)} of {len(tried)} sets, {why}"
+
+
+def _measure(aim: Aim, best: Tried, told: Sequence[str]) -> Table:
+    """Result and target of a measure, and what to change."""
+    mean, start = best.mean(aim.name), f"{aim.name}: "
+    return {
+        "name": aim.name,
+        "target": aim.value,
+        "tolerance": aim.tolerance,
+        "mean": mean,
+        "error": best.error(aim.name),
+        "met": is_met(aim, mean),
+        "advice": [line.removeprefix(start) for line in told if line.startswith(start)],
+    }
 
 
 def is_met(aim: Aim, mean: float | None) -> bool:

@@ -13,7 +13,7 @@ import numpy as np
 
 from .._version import __version__
 from ..errors import InputError
-from ..files import load_csv, load_json, read_text
+from ..files import Table, load_csv, load_json, read_text
 from ..kinds.registry import OWN
 from ..report.pages.page import (
     FILE,
@@ -37,6 +37,7 @@ from ..results.result_checks import SO_FAR
 from ..runs.asked import told_of, write_report
 from ..runs.output import KINDS, RESULT, kind_of
 from ..text import name_of, printable, words_of
+from .calibration_report import unit_of
 from .calibration_verdict import FILE as VERDICT
 from .jobs import place_of
 
@@ -185,14 +186,14 @@ def _calibration(folder: Path) -> Page:
     """Page of a calibration."""
     names, rows = load_csv(folder / "history.csv", "history")
     shown = [[_plain(cell) for cell in row] for row in rows[-_MOST_ROWS:]]
-    box, shares = _verdict(folder)
+    box, told = _verdict(folder)
     return Page(
         title=f"Calibration {name_of(folder.resolve().name)}",
         about=f"{len(rows)} sets of values were tried",
         versions=f"Made by flexpm {__version__}.",
         status=box,
         tables=[
-            *([shares] if shares else []),
+            *told,
             Rows("Sets of values", [words_of(name) for name in names], shown),
         ],
         pictures=_pictures(folder),
@@ -205,11 +206,11 @@ def _calibration(folder: Path) -> Page:
     )
 
 
-def _verdict(folder: Path) -> tuple[Status | None, Rows | None]:
-    """Box and table of what a calibration says of itself; none of one that was not finished."""
+def _verdict(folder: Path) -> tuple[Status | None, list[Rows]]:
+    """Box and tables of what a calibration says of itself; none of one that was not finished."""
     file = folder / VERDICT
     if not file.is_file():
-        return None, None
+        return None, []
     content = load_json(file, "verdict")
     missed = [words_of(str(name)) for name in content["missed"]]
     lines = [printable(str(line)) for line in content["advice"]]
@@ -219,7 +220,25 @@ def _verdict(folder: Path) -> tuple[Status | None, Rows | None]:
     box = Status(name, not missed, meaning, told)
     shares = [(words_of(str(key)), f"{float(part):.2g}") for key, part in content["left"].items()]
     note = "1: the targets leave the key anywhere within its bounds; small: they determine it."
-    return box, Rows("How open the keys are", ("key", "scatter left [-]"), shares, note)
+    tables = [Rows("How open the keys are", ("key", "scatter left [-]"), shares, note)]
+    if measures := content.get("measures"):
+        header = ("measure", "result", "target", "tolerance [%]", "verdict", "what to change")
+        tables.insert(0, Rows("Targets", header, [_of_target(one) for one in measures]))
+    return box, tables
+
+
+def _of_target(one: Table) -> tuple[str, ...]:
+    """Result and verdict of a target."""
+    factor, unit = unit_of(str(one["name"]))
+    mean, error = one["mean"], one["error"]
+    result = "-" if mean is None else f"{factor * mean:.4g}"
+    if error is not None:
+        result += f" ± {factor * error:.2g}"
+    verdict = "met" if one["met"] else "missed" if mean is not None else "not measured"
+    advice = ". ".join(printable(str(line)) for line in one["advice"])
+    target = f"{factor * one['target']:.4g} {unit}".rstrip()
+    tolerance = f"{100.0 * one['tolerance']:g}"
+    return (words_of(str(one["name"])), result, target, tolerance, verdict, advice)
 
 
 def _text_of(file: Path) -> str:

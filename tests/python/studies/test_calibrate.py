@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 import os
 import signal
@@ -15,6 +16,7 @@ import pandas
 import pytest
 
 from flexpm import materials
+from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.materials.mixing import value_of
 from flexpm.studies import calibration_problem, calibration_search, jobs
@@ -155,6 +157,72 @@ def test_the_search_meets_targets_on_the_full_specimen(tmp_path, monkeypatch):
     assert all("met" in text for _, text in table_rows(plan, found))
     picture(tmp_path / "known.png", plan, found)
     assert (tmp_path / "known.png").stat().st_size > 10_000
+
+
+class NoPeaks(MadeUp):
+    """Small discs pass no peak, one of two large ones does not; the last run fails."""
+
+    def run(self, wanted, progress=None):
+        found = super().run(wanted)
+        progress(len(wanted), len(wanted), "runs")
+        for job, outcome in zip(wanted, found, strict=True):
+            inputs = dict(job.inputs)
+            outcome["result"] |= {"status": "ok", "grains": 180}
+            if inputs["test"] == "brazilian" and inputs["seed"] in (1, 5):
+                outcome["result"] |= {"status": "no_peak", "peak_stress": None}
+            if inputs["test"] == "uniaxial" and inputs["seed"] == 6:
+                outcome |= {"result": {}, "exit_code": 1, "message": "memory = exhausted"}
+        return found
+
+
+def test_a_measure_that_is_lost_leaves_page_preset_and_a_verdict(tmp_path, monkeypatch):
+    monkeypatch.setattr(calibration_search, "Pool", NoPeaks)
+    text = GOOD.replace("[target]", "[target]\nindirect_tensile_strength = 8e6")
+    file = tmp_path / "known.toml"
+    file.write_text(text.replace("evaluations = 30\nrounds = 2", "evaluations = 4\nrounds = 1"))
+    bar = []
+    monkeypatch.setattr(
+        cli.terminal.Progress,
+        "__call__",
+        lambda _, done, expected, text: bar.append((done, expected)),
+    )
+    assert cli.main(["calibrate", str(file), "--out", str(tmp_path / "out")]) == 3
+    verdict = json.loads((tmp_path / "out" / "verdict.json").read_text())
+    assert verdict["missed"] == ["indirect_tensile_strength", "compressive_strength"]
+    found = {one["name"]: one for one in verdict["measures"]}
+    assert found["indirect_tensile_strength"]["advice"] == [
+        "not measured, brazilian ended no_peak in 1 of 2 runs of 180 grains; take larger specimens "
+        "or smaller grains, or raise max_strain"
+    ]
+    assert found["compressive_strength"]["advice"] == [
+        "not measured, uniaxial failed (memory = exhausted) in 1 of 2 runs; see the messages in "
+        "runs"
+    ]
+    assert found["direct_tensile_strength"]["mean"] > 0.0
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert page.count("not measured") >= 2
+    text = (tmp_path / "out" / "known.toml").read_text()
+    assert "# indirect tensile strength: -, target 8 MPa: NOT met" in text
+    # start, four sets of the search and one that is verified
+    assert {expected for _, expected in bar} == {1 + 4 + 1}
+
+
+def test_a_found_material_knows_what_it_was_made_for(tmp_path, monkeypatch):
+    monkeypatch.setattr(calibration_search, "Pool", MadeUp)
+    solid = '[common]\nshape = "box"\ndiameters = [2e-3, 3e-3]\n[screen]'
+    for text, expected in (
+        (GOOD, {"dimension": "2D", "model": "flexible", "mean_diameter": 3e-3}),
+        (
+            GOOD.replace("[screen]", solid),
+            {"dimension": "3D", "model": "flexible", "mean_diameter": 2.5e-3},
+        ),
+    ):
+        plan = plan_of(tmp_path, text)
+        start = materials.load(None, solid=plan.is_solid)
+        assert start.made_for.dimension == expected["dimension"]
+        found = calibration_search.run(plan, tmp_path / plan.made_for.dimension, start=start.law())
+        preset = write_preset(tmp_path / "known.toml", start, plan, found)
+        assert preset.made_for.to_dict() == pytest.approx(expected)
 
 
 def test_both_strengths_in_tension_are_told_with_their_ratio(tmp_path):

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import json
+import math
+
 import pytest
 
 import flexpm
@@ -74,12 +77,43 @@ def test_bad_calls_end_in_one_line(tmp_path, measure, free, targets, options, to
     assert "\n" not in str(refused.value)
 
 
-def test_no_measures_at_all_end_in_one_line(tmp_path):
-    def nothing(material: flexpm.Material) -> dict[str, float]:
-        raise SimulationError("it fell apart")
+@pytest.mark.parametrize("how", ["fails", "nan", "none", "half"])
+def test_a_calibration_without_a_measure_ends_with_page_and_verdict(tmp_path, how):
+    def measure(material: flexpm.Material) -> dict[str, float | None]:
+        if how == "fails":
+            raise SimulationError("it fell apart")
+        found = dict(law(material))
+        if how == "half" and material.cohesion < 2e7:
+            return {**found, "pull": None}
+        return {**found, "pull": math.nan if how == "nan" else None}
 
-    with pytest.raises(SimulationError, match="no verified set gave all measures"):
-        flexpm.calibrate(nothing, FREE, {"pull": 1e6}, tmp_path / "out", evaluations=3)
+    out, targets = tmp_path / "out", {"pull": 1e6, "crush": 5e7}
+    found = flexpm.calibrate(measure, FREE, targets, out, evaluations=8)
+    assert found.met["pull"] is False
+    assert found.best.mean("pull") is None
+    why = "the function failed (it fell apart)" if how == "fails" else "the function gave none"
+    assert found.verdict.advice[0] == f"pull: not measured, {why}; change its test"
+    verdict = json.loads((out / "verdict.json").read_text())
+    assert [one["name"] for one in verdict["measures"]] == ["pull", "crush"]
+    assert verdict["measures"][0]["mean"] is None
+    assert (verdict["measures"][1]["mean"] is None) == (how == "fails")
+    page = (out / "report.html").read_text()
+    assert "not measured" in page and "change its test" in page
+    assert {"out.toml", "calibration.png", "history.csv"} <= {one.name for one in out.iterdir()}
+
+
+def test_keys_that_do_not_go_together_do_not_end_a_calibration(tmp_path):
+    """A fracture energy below the elastic one is refused by the material, not by the search."""
+    free = {"tensile_strength": (2e6, 60e6), "tensile_fracture_energy": (0.05, 20.0)}
+    wanted = {"pull": 1e7, "more": 1.0}
+
+    def measure(material: flexpm.Material) -> dict[str, float]:
+        return {**law(material), "more": material.tensile_fracture_energy}
+
+    found = flexpm.calibrate(measure, free, wanted, tmp_path / "out", evaluations=30)
+    lost = [one.lost["pull"] for one in found.history if one.lost]
+    assert lost and all(text.startswith("refused: material tensile_fracture") for text in lost)
+    assert (tmp_path / "out" / "report.html").is_file()
 
 
 @pytest.mark.long

@@ -46,6 +46,7 @@ class Set:
     values: dict[str, float]
     found: dict[str, float | None]
     errors: dict[str, float] = field(default_factory=dict)
+    lost: dict[str, str] = field(default_factory=dict)
 
     def mean(self, name):
         return self.found[name]
@@ -75,6 +76,37 @@ def test_slopes_are_the_exponents_of_a_power_law():
     # a key that was never changed moves nothing that is known
     same = [power_law(s, 0.5) for s in (20.0, 24.0)]
     assert slopes(same, [*FREE], AIMS)[:, 1] == pytest.approx(0.0)
+
+
+def test_a_measure_that_is_lost_hides_no_other():
+    """Sets without one measure still tell the slopes of the other, and the keys of it."""
+    sets = tried()
+    for one in sets:
+        one.found["other"], one.lost["other"] = None, "brazilian ended no_peak in 1 of 1 runs; x"
+    assert slopes(sets, [*FREE], AIMS) == pytest.approx(np.array([[1.0, 0.5], [0.0, 0.0]]))
+    best = Set(
+        {"strength": 20.0, "friction": 0.5}, {"peak": 14.0, "other": None}, lost=sets[0].lost
+    )
+    found = judge(AIMS, FREE, [(sets, [*FREE], AIMS)], best, used_up=False)
+    assert found.missed == ["peak", "other"]
+    assert found.advice == [
+        "peak: set against other targets; free another key, raise rounds or its tolerance, or give "
+        "it more weight",
+        "other: not measured, brazilian ended no_peak in 1 of 1 runs; x",
+    ]
+    assert [(one["name"], one["mean"], one["met"]) for one in found.measures] == [
+        ("peak", 14.0, False),
+        ("other", None, False),
+    ]
+    assert found.measures[1]["advice"] == [
+        "not measured, brazilian ended no_peak in 1 of 1 runs; x"
+    ]
+    # verified, though the search went without it
+    best = Set({"strength": 20.0, "friction": 0.5}, {"peak": 50.0, "other": 2.0})
+    found = judge(AIMS, FREE, [(sets, [*FREE], AIMS)], best, used_up=False)
+    assert found.advice == [
+        "other: the search measured it in 0 of 6 sets, brazilian ended no_peak in 1 of 1 runs; x"
+    ]
 
 
 def test_what_is_left_open_is_that_of_linear_least_squares():

@@ -20,7 +20,15 @@ from ...require import Bounds, quoted, require_known, require_whole
 from ...runs.output import refuse_other_kind
 from .. import calibration_report, calibration_verdict, pages
 from ..calibration_problem import Calibration, Runs, Target, free_of, target_of
-from ..calibration_search import Outcome, Search, Values, history_table, judged, started
+from ..calibration_search import (
+    Measures,
+    Outcome,
+    Search,
+    Values,
+    history_table,
+    judged,
+    started,
+)
 from ..study import MOST_RUNS
 from ..tables import write_table
 
@@ -54,8 +62,8 @@ def calibrate(
 
     Args:
         measure: Takes a `Material`, does tests with it, and gives numbers by their names; others
-            than the targets are left out. What raises ``SimulationError``, or gives nan, counts as
-            a set without measures.
+            than the targets are left out. What raises ``SimulationError``, or gives None or nan,
+            counts as a set without the measure.
         free: Bounds of each key that may change, as in ``[free]`` of a file, SI units.
         targets: By the name of a measure its value, or a table with ``value``, ``tolerance`` (0.05)
             and ``weight`` (1), as in ``[target]``. Values are above 0.
@@ -70,12 +78,12 @@ def calibrate(
             - ``progress``: called with (sets done, sets expected, text).
 
     Returns:
-        ``best`` with ``values`` and ``mean(name)``, ``met`` by target, and the ``verdict``.
+        ``best`` with ``values`` and ``mean(name)``, ``met`` by target, and the ``verdict``. A
+        target that no set has measured is not met, and its ``mean`` is None.
 
     Raises:
         InputError: for a key or a value out of range, a function without one of the targets, or
             a folder with other results.
-        SimulationError: if no set gave all measures.
     """
     if not callable(measure):
         raise InputError(f"calibrate: measure = {quoted(measure)}, must be a function")
@@ -130,6 +138,10 @@ def calibrate(
 class _OwnCalibration(Calibration):
     """A calibration whose measures are all searched for alike."""
 
+    @property
+    def made_for(self) -> None:
+        """The packings are those of the function, and unknown here."""
+
     def of_kind(self, elastic: bool) -> tuple[list[Target], list[str]]:
         return ([], []) if elastic else ([*self.targets], [*self.free])
 
@@ -142,32 +154,45 @@ class _OwnSearch(Search):
     ) -> None:
         super().__init__(plan, None, progress)
         self._measure, self._start = measure, start
-        self._known: dict[tuple[float, ...], dict[str, list[float | None]]] = {}
+        self._known: dict[tuple[float, ...], tuple[Measures, dict[str, str]]] = {}
 
     def _measures(
         self, runs: Runs, values: Values, targets: Sequence[Target]
-    ) -> dict[str, list[float | None]]:
+    ) -> tuple[Measures, dict[str, str]]:
         key = tuple(values.values())
         if key not in self._known:
             self._progress(len(self.history), self._expected(), "calibrating")
             self._known[key] = self._called(values, targets)
         return self._known[key]
 
-    def _called(self, values: Values, targets: Sequence[Target]) -> dict[str, list[float | None]]:
+    def _called(self, values: Values, targets: Sequence[Target]) -> tuple[Measures, dict[str, str]]:
         assignments = [f"{key}={value!r}" for key, value in values.items()]
+        names = [target.name for target in targets]
         try:
-            found = self._measure(self._start.with_set(assignments, self._plan.model))
-        except SimulationError:  # a specimen that bears nothing has no measures
-            return {target.name: [None] for target in targets}
+            material = self._start.with_set(assignments, self._plan.model)
+        except InputError as error:
+            if not self.history:
+                raise  # wrong from the start
+            return {name: [None] for name in names}, dict.fromkeys(names, f"refused: {error}")
+        try:
+            found = self._measure(material)
+        except SimulationError as error:  # a specimen that bears nothing has no measures
+            why = f"the function failed ({error}); change its test"
+            return {name: [None] for name in names}, dict.fromkeys(names, why)
         if not isinstance(found, Mapping):
             raise InputError(f"calibrate: measures = {quoted(found)}, must be a table of numbers")
-        for target in targets:
-            require_known("calibrate: target", target.name, [*found])
-        return {target.name: [_number(target.name, found)] for target in targets}
+        for name in names:
+            require_known("calibrate: target", name, [*found])
+        numbers = {name: _number(name, found) for name in names}
+        lost = [name for name, number in numbers.items() if number is None]
+        why = "the function gave none; change its test"
+        return {name: [number] for name, number in numbers.items()}, dict.fromkeys(lost, why)
 
 
 def _number(name: str, found: Mapping[str, object]) -> float | None:
     value = found[name]
+    if value is None:  # as a result has a strength that was not reached
+        return None
     try:
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
