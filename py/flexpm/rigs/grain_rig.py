@@ -137,7 +137,7 @@ class GrainRig(TestRig):
         return wrapper.RectangleFrame(tension=self.tension)
 
     def unbalanced(self) -> float:
-        """Largest unbalanced force over the mean contact force at the last measured step [-]."""
+        """Ratio of the largest unbalanced force to the mean contact force, last measured [-]."""
         return self.built.solver.unbalanced()
 
     def balance(self) -> Balance:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -105,6 +105,7 @@ class PartLayout:
             "support",
             lambda: solver.findPatchPlate(*values),
             lambda: solver.addPatchPlate(*values),
+            values[0],
         )
 
     def platen(
@@ -183,6 +184,7 @@ class PartLayout:
             "jaw",
             lambda: solver.findJawPlate(*values),
             lambda: solver.addJawPlate(*values),
+            (x, y),
         )
 
     def _disc(self) -> tuple[tuple[float, float], float]:
@@ -239,7 +241,13 @@ class PartLayout:
             )
         return HeldNodes(self, solver, "held nodes", number)
 
-    def _plate(self, kind: str, find: Callable[[], int], lay: Callable[[], int]) -> Part:
+    def _plate(
+        self,
+        kind: str,
+        find: Callable[[], int],
+        lay: Callable[[], int],
+        requested: Sequence[float] | None = None,
+    ) -> Part:
         """A plate: laid now, or found in a scene that is taken up again."""
         self._require_scene(kind)
         if self._found[Part]:
@@ -247,7 +255,8 @@ class PartLayout:
         else:
             number = self._asked(kind, lay)
             self.built.set_masses()
-        return Part(self, self.built.solver, kind, number)
+        position = None if requested is None else tuple(requested[: len(self._axes)])
+        return Part(self, self.built.solver, kind, number, position)
 
     def _asked(self, kind: str, call: Callable[[], Answer]) -> Answer:
         """What the kernel says to a call, its refusal in the name of the kind."""

@@ -75,9 +75,12 @@ class RigPart:
 
 @dataclass(frozen=True, eq=False)
 class Part(RigPart):
-    """A plate of a rig; `place` is that of a point of its face."""
+    """A plate of a rig; `place` is where its load acts: the mean of its contacts by area."""
 
     _list = "plates"
+
+    #: Position that was passed to `support` or `jaw`, x, y and in space z [m]; None for a platen.
+    requested_position: tuple[float, ...] | None = None
 
     @property
     def width(self) -> float:

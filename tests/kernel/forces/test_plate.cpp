@@ -6,6 +6,7 @@
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/topology/part_plates.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 
 #include <flexpm/kernel/step/mass_scaling.hpp>
@@ -219,4 +220,36 @@ TEST_CASE("plates are checked", "[plate]")
     const int plate = flexpm::add_side_plates(a, 0, 1, {}).front();
     CHECK_THROWS_WITH(flexpm::press(a, plate, 1e6), Catch::Contains("scale the masses"));
     CHECK_THROWS_WITH(flexpm::set_velocity(a, 7, { 0.0, 0.0 }), Catch::Contains("plate = 7"));
+}
+
+TEST_CASE("A plate is where its load acts: an even pressure has no moment there", "[plate]")
+{
+    for (const bool rigid : { false, true }) {
+        CAPTURE(rigid);
+        Assembly a = squares(5, 2, rigid);
+        const double length = 5.0 * size;
+        // on one edge, across a corner, of several edges, half of it beyond the outline
+        const double asked[][3] = { { 1.3e-3, 1e-3, 1.3e-3 }, { 3.2e-3, 1e-3, 3.2e-3 },
+            { 8e-3, 5e-3, 8e-3 }, { length, 2e-3, length - 0.5e-3 } };
+        for (const auto& [x, width, place] : asked) {
+            CAPTURE(x);
+            const int number = flexpm::add_patch_plate(a, { { x, 0.0 }, width, { 0.0, 1.0 } }, {});
+            const flexpm::Plate& p = a.plates[number];
+            CHECK(p.position.x == Approx(place).epsilon(1e-12));
+            CHECK(p.position.y == 0.0);
+            double moment = 0.0;
+            for (int i = 0; i < flexpm::plate_points(p); ++i) {
+                const auto point = flexpm::plate_point(p, i);
+                const auto nodes = a.facets.nodes(point.facet);
+                moment += p.area[i]
+                    * (flexpm::vector_on_edge(a.grains.reference, nodes, point.weight).x
+                        - p.position.x);
+            }
+            CHECK(std::fabs(moment) < 1e-12 * length * p.width * specimens::thickness);
+            a.plates.clear();
+        }
+        flexpm::add_side_plates(a, flexpm::right_side, 1, {});
+        CHECK(a.plates[0].position.x == length);
+        CHECK(a.plates[0].position.y == Approx(size).epsilon(1e-12));
+    }
 }

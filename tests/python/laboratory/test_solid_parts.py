@@ -155,12 +155,32 @@ def test_it_goes_back_and_on_without_a_wave(box):
     assert abs(rig.stress) < 1e-3 * high
 
 
+@pytest.mark.parametrize("model", ["rigid", "flexible"])
+def test_a_part_is_where_its_load_acts(model):
+    size = (0.012, 0.008, 0.008)
+    rig = rig_of(flexpm.Specimen.box(*size, seed=1), model)
+    # a quarter of the cube around the corner lies on the bottom
+    corner = rig.support((0.012, 0.0, 0.0), 0.004)
+    inside = rig.support((0.0041, 0.004, 0.0), 0.003)
+    line = rig.support((0.006, 0.002, 0.008))
+    wall = rig.platen(3)
+    assert corner.place == pytest.approx((0.011, 0.001, 0.0), abs=1e-9)
+    assert corner.requested_position == (0.012, 0.0, 0.0)
+    assert inside.place == pytest.approx((0.0041, 0.004, 0.0), abs=1e-9)
+    assert inside.requested_position == (0.0041, 0.004, 0.0)
+    assert line.place == pytest.approx((0.006, 0.004, 0.008), abs=1e-9)
+    assert line.requested_position == (0.006, 0.002, 0.008)
+    assert wall.place == pytest.approx((0.0, 0.004, 0.004), abs=1e-9)
+    assert wall.requested_position is None
+
+
 def test_a_roller_is_a_line_across_the_depth():
     beam = flexpm.Specimen.box(0.036, 0.008, 0.008, seed=1)
     rig = rig_of(beam, "rigid")
     rollers = [rig.support((x, 0.004, 0.0)) for x in (0.004, 0.032)]
     head = rig.support((0.018, 0.004, 0.008), pinned=True)
-    assert rig.parts[2]["place"] == [0.018, 0.0, 0.008]
+    assert rig.parts[2]["place"] == pytest.approx([0.018, 0.004, 0.008], abs=1e-12)
+    assert head.place == pytest.approx(head.requested_position, abs=1e-12)
     rig.drive(head, (0, 0, -1), against=rollers)
     rig.strain_to(2e-6)
     left, right = (one.force[2] for one in rollers)

@@ -22,7 +22,7 @@ namespace flexpm {
 struct Plate {
     // what it is
     int side = -1;                 ///< side of the outline it lies on; -1: none in particular
-    Vector position;               ///< of a point of its face at the reference [m]
+    Vector position;               ///< of its face at the reference, where its load acts [m]
     Vector normal;                 ///< unit vector
     double width = 0.0;            ///< of the face that takes pressure [m]; in space its area [m^2]
     double stiffness = 0.0;        ///< normal stiffness per area K_n [Pa/m]

@@ -106,6 +106,7 @@ Plate plate_along(const SolidState& s, SolidSide side, const BearingLine& line)
         p.gap.push_back(p.normal.z * one.z - nearest);
     }
     p.opening = p.gap;
+    centre_position(s, p);
     if (line.pinned) roughen(p, no_sliding);
     return p;
 }

@@ -61,6 +61,7 @@ Plate touching_plate(const SolidState& s, SolidSide side)
     const auto first = std::min_element(p.gap.begin(), p.gap.end());
     const double nearest = *first;
     p.position = middle(s.grains.reference, s.surface.nodes[p.facets[first - p.gap.begin()]]);
+    centre_position(s, p);
     for (double& gap : p.gap)
         gap = gap - nearest < no_gap * std::fabs(nearest) ? 0.0 : gap - nearest;
     p.opening = p.gap;

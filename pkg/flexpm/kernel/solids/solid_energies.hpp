@@ -18,8 +18,8 @@ Energies energies(const SolidState& s);
 /// Those of the energies that say what a loading does to the specimen.
 Dissipation dissipation(const SolidState& s);
 
-/// Power that local damping takes from the motion of grains and loaded plates beyond the motion that
-/// it leaves alone, as of the plane [W, or J per unit step].
+/// Power that local damping takes from the motion of grains and loaded plates beyond the motion
+/// that it leaves alone, as of the plane [W, or J per unit step].
 double damping_power(const SolidState& s, double damping);
 
 /// Ratio of the largest unbalanced force to the mean contact force [-], at the last measured step;

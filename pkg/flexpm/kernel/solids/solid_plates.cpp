@@ -211,13 +211,26 @@ int find_alike(const SolidState& s, const Plate& plate)
 {
     const auto same = [&](const Plate& there) {
         return there.side == plate.side && norm(there.normal - plate.normal) == 0.0
-            && norm(there.position - plate.position) == 0.0 && there.facets == plate.facets
-            && there.area == plate.area && there.friction == plate.friction
+            && there.facets == plate.facets && there.area == plate.area
+            && there.shares == plate.shares && there.friction == plate.friction
             && there.bonded == plate.bonded && there.strip == plate.strip
             && there.seated == plate.seated;
     };
     const auto found = std::find_if(s.plates.begin(), s.plates.end(), same);
     return found == s.plates.end() ? -1 : static_cast<int>(found - s.plates.begin());
+}
+
+void centre_position(const SolidState& s, Plate& plate)
+{
+    Vector sum;
+    double area = 0.0;
+    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
+        const auto& nodes = s.surface.nodes[plate.facets[i]];
+        sum = sum + plate.area[i] * touched(plate, i, s.grains.reference, nodes);
+        area += plate.area[i];
+    }
+    const Vector way = (1.0 / area) * sum - plate.position;
+    plate.position = plate.position + (way - dot(plate.normal, way) * plate.normal);
 }
 
 Plate plain_plate(const SolidState& s, SolidSide side)
@@ -244,9 +257,10 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded)
     if (p.facets.empty())
         refuse("add_end_plate: triangles of side " + std::to_string(number), 0.0, "",
             "must be above 0; give cells of a solid with bottom and top");
-    p.position = middle(s.grains.reference, s.surface.nodes[p.facets.front()]);
     p.gap.assign(p.facets.size(), 0.0);
     p.opening.assign(p.facets.size(), 0.0);
+    p.position = middle(s.grains.reference, s.surface.nodes[p.facets.front()]);
+    centre_position(s, p);
     take_over_pressure(s, p);
     s.plates.push_back(p);
     prepare_step(s);

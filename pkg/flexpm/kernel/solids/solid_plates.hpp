@@ -46,6 +46,10 @@ void lay_strip(Plate& plate, double strip);
 /// Lay a plate that has all of its contacts; returns its number.
 int add_plate(SolidState& s, const Plate& plate);
 
+/// Move the position of a plate that has all of its contacts along its face to where its load acts:
+/// the mean of the contacts by area.
+void centre_position(const SolidState& s, Plate& plate);
+
 /// Let plates hold what touches them now, pulled or pressed, and along the face if they have
 /// friction: as linear solutions have it. What does not touch them never does.
 void hold_touching(SolidState& s);

@@ -135,6 +135,7 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
         p.area[2 * i + 1] = middle * area;
     }
     require_on_outline(a, p, patch);
+    centre_position(a, p);
     seat(a, p);
     return p;
 }

@@ -76,6 +76,7 @@ std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const Pl
         }
         p.points = points_on_facet(a, p);
         lay(a, p);
+        centre_position(a, p);
         seat(a, p);
         plates.push_back(p);
     }

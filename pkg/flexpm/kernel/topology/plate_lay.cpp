@@ -122,6 +122,13 @@ void lay(const Assembly& a, Plate& p)
     p.shear_force.assign(p.gap.size(), 0.0);
 }
 
+void centre_position(const Assembly& a, Plate& p)
+{
+    const Point tangent = tangent_of(in_plane(p.normal));
+    const Point middle = middle_of_face(a, p);
+    p.position = p.position + along(tangent, middle - in_plane(p.position)) * tangent;
+}
+
 void seat(const Assembly& a, Plate& p)
 {
     if (!p.seated) return;

@@ -36,6 +36,10 @@ int points_on_facet(const Assembly& a, const Plate& p);
 /// Gaps and tributary areas of the plate's points; the state at the reference.
 void lay(const Assembly& a, Plate& p);
 
+/// Move the position of a plate along its face to where its load acts: the mean of its points by
+/// area.
+void centre_position(const Assembly& a, Plate& p);
+
 /// Let a seated plate turn about the middle of its face, where an even pressure has no moment.
 void seat(const Assembly& a, Plate& p);
 

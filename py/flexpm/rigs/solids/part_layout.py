@@ -95,7 +95,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
         into = np.array(inwards) if any(inwards) else inwards_at(specimen, at)
         layer = strip_of("support", strip)
         patch = patch_around(specimen, at, edges, into)
-        return self._patch("support", patch, friction, bonded, layer, seated)
+        return self._patch("support", patch, friction, bonded, layer, seated, at)
 
     def platen(
         self,
@@ -151,7 +151,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
         """
         if self._specimen.kind != "solid-disc":
             raise InputError("jaw: specimen = no disc, must be one; lay supports")
-        x, _, z = require_vector("jaw: place", place, axes=SPACE)
+        x, y, z = require_vector("jaw: place", place, axes=SPACE)
         rim = 0.5 * self._specimen.dimensions["diameter"]
         jaw = Jaw.of((x, z), (0.0, 0.0), rim, radius, angle)
         values = (
@@ -162,7 +162,10 @@ class SolidPartLayout(PartLayout, SolidGrains):
             strip_of("jaw", strip),
         )
         part = self._plate(
-            "jaw", lambda: self._solid.findJaw(*values), lambda: self._solid.layJaw(*values)
+            "jaw",
+            lambda: self._solid.findJaw(*values),
+            lambda: self._solid.layJaw(*values),
+            (x, y, z),
         )
         self._traces[part.number] = jaw.trace(rim)
         return part
@@ -186,10 +189,18 @@ class SolidPartLayout(PartLayout, SolidGrains):
             lambda: self._solid.findLine(*values),
             lambda: self._solid.layLine(*values),
             patch_around(self._specimen, place, edges, np.array(INWARDS[side])),
+            at,
         )
 
     def _patch(
-        self, kind: str, patch: Patch, friction: float, bonded: bool, strip: float, seated: bool
+        self,
+        kind: str,
+        patch: Patch,
+        friction: float,
+        bonded: bool,
+        strip: float,
+        seated: bool,
+        requested: Vector | None = None,
     ) -> Part:
         values = (patch.normal, patch.low, patch.high, friction, bonded, strip, seated)
         return self._lay(
@@ -197,6 +208,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
             lambda: self._solid.findPatch(*values),
             lambda: self._solid.layPatch(*values),
             patch,
+            requested,
         )
 
     def _lay(
@@ -205,6 +217,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
         find: Callable[[], int],
         lay: Callable[[], int],
         patch: Patch,
+        requested: Vector | None,
     ) -> Part:
         """Lay a plate before a patch that no other one has."""
         for number, there in self._patches.items():
@@ -213,7 +226,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
                 raise InputError(
                     f"{kind}: part = {other}, lies there already, must be apart; take another place"
                 )
-        part = self._plate(kind, find, lay)
+        part = self._plate(kind, find, lay, requested)
         self._patches[part.number], self._traces[part.number] = patch, patch.trace
         return part
 
