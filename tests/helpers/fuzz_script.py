@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import tempfile
 from pathlib import Path
@@ -243,7 +244,8 @@ class Script:
         """All that a part tells."""
         if hasattr(held := self._picked(part), "force"):
             for name in PART_READINGS:
-                getattr(held, name, None)
+                with contextlib.suppress(self._flexpm.InputError):  # not all parts have all
+                    getattr(held, name, None)
 
     def do_names(self, name: Any, column: Any, part: list[Any]) -> None:
         if rig := self._parts():

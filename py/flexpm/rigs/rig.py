@@ -112,6 +112,13 @@ class TestRig(RigReadings):
                 f"), must fall below {AT_REST}; {self._more_balance}"
             )
 
+    def roughen(self, friction: float) -> None:
+        """Raise InputError: ends with friction are available for solids of grains only."""
+        raise InputError(
+            f"roughen: friction = {quoted(friction)}, is for solids of flexible or rigid grains "
+            "between their ends; leave it out, or give the plates of a PartRig friction"
+        )
+
     def load(self, loading: Loading | None = None) -> None:
         """Drive the ends until the stress has fallen from its peak, or to the largest strain.
 
