@@ -293,7 +293,17 @@ class Model:
 
 
 #: Public calls of rigs that are not drawn: what a run of the command makes of its own.
-NOT_CALLED = {"keep_start", "likely_steps", "scales", "read_mouth", "has_scale", "confine", "bend", "balance", "unbalanced"}
+NOT_CALLED = {
+    "keep_start",
+    "likely_steps",
+    "scales",
+    "read_mouth",
+    "has_scale",
+    "confine",
+    "bend",
+    "balance",
+    "unbalanced",
+}
 
 
 def test_every_call_of_a_rig_is_drawn():

@@ -43,35 +43,34 @@ def read(path: Path) -> OrientationMap:
         if key not in found:
             raise text.refused(f"{key} is missing, must be in the head; complete it")
     steps = (text.step("XStep", *found["XStep"]), text.step("YStep", *found["YStep"]))
-    cells = [
+    wide, high, deep = (
         text.count(key, *found[key]) if key in found else 0
         for key in ("XCells", "YCells", "ZCells")
-    ]
-    if cells[2] > 1:
+    )
+    if deep > 1:
         raise text.refused(
-            f"ZCells = {cells[2]}, must be 1: {NO_VOLUMES}; export one slice",
-            found["ZCells"][1],
+            f"ZCells = {deep}, must be 1: {NO_VOLUMES}; export one slice", found["ZCells"][1]
         )
     count, first = found["Phases"]
     number = int(text.number("Phases", count, first))
     if not 1 <= number <= _MOST_PHASES:
         raise text.refused(f"Phases = {number}, must be 1 to {_MOST_PHASES}; correct it", first)
     phases = [_phase(text, line) for line in range(first + 1, first + 1 + number)]
-    row = first + 1 + number
-    names = lines[row].split() if row < len(lines) else []
+    head = first + 1 + number
+    names = lines[head].split() if head < len(lines) else []
     missing = [name for name in _COLUMNS if name not in names]
     if missing:
-        raise text.refused(f"columns: {', '.join(missing)} missing, must be there", row)
+        raise text.refused(f"columns: {', '.join(missing)} missing, must be there", head)
     given = [*_COLUMNS, *(["Z"] if "Z" in names else [])]
-    values = text.table(row + 1, [names.index(name) for name in given])
+    values = text.table(head + 1, [names.index(name) for name in given])
     phase, x, y = values[:, :3].T
     layers = len(np.unique(values[:, len(_COLUMNS) :]))
     if layers > 1:
-        raise text.refused(f"Z = {layers} layers, must be 1: {NO_VOLUMES}; export one slice", row)
+        raise text.refused(f"Z = {layers} layers, must be 1: {NO_VOLUMES}; export one slice", head)
     if len(phase) and not (np.isin(phase, np.arange(number + 1))).all():
         wrong = int(np.flatnonzero(~np.isin(phase, np.arange(number + 1)))[0])
         raise text.refused(f"point {wrong + 1}: Phase = {phase[wrong]:g}, must be 0 to {number}")
-    shape = (cells[0], cells[1]) if cells[0] and cells[1] else None
+    shape = (wide, high) if wide and high else None
     grid = text.grid(x, y, Head(steps, None, shape, "XCells x YCells"))
     turned = laue.orientations(values[:, 3:6], degrees=True)
     return OrientationMap.of(phases, phase.astype(int) - 1, turned, grid)
