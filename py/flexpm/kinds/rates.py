@@ -34,6 +34,9 @@ class Rates:
     running_share: float | None = None
     #: The fastest k of a loading that waits for cracks [-].
     waiting_constant: float = WAITING_CONSTANT
-    #: Wave crossings that a test with a loading that waits takes, about, between half the paper's
-    #: size and the whole of it [-]; None: it goes all its way.
+    #: Wave transits that a test with a loading that waits takes with brittle contacts [-]; None:
+    #: it goes all its way.
     likely_crossings: float | None = None
+    #: Transits that the softening of the contacts adds for each unit of its ratio, see
+    #: ``runs.likely`` [-].
+    likely_softening: float = 0.0

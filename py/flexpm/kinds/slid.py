@@ -17,13 +17,13 @@ WAY = Option(
 )
 #: At 0.16 a joint that begins to slide has carried 3 % too much; brittle ones are not measured.
 RATES = {
-    "flexible": Rates(0.01, 0.01, (0.06, 0.1), 0.04, waiting_constant=0.04),
-    "rigid": Rates(0.01, 0.01, (0.09, 0.1), 0.04, waiting_constant=0.04),
+    "flexible": Rates(0.01, 0.01, (0.06, 0.1), 0.04, waiting_constant=0.04, likely_softening=1.15),
+    "rigid": Rates(0.01, 0.01, (0.09, 0.1), 0.04, waiting_constant=0.04, likely_softening=1.15),
 }
 #: The same of solids: halving moves peaks of three by 1.1 % and less.
 SOLID_RATES = {
-    "flexible": Rates(0.01, 0.01, (0.04, 0.1), 0.04, waiting_constant=0.04),
-    "rigid": Rates(0.01, 0.01, (0.25, 0.25), 0.04, waiting_constant=0.04),
+    "flexible": Rates(0.01, 0.01, (0.04, 0.1), 0.04, waiting_constant=0.04, likely_softening=1.15),
+    "rigid": Rates(0.01, 0.01, (0.25, 0.25), 0.04, waiting_constant=0.04, likely_softening=1.15),
 }
 DRAWN = Drawn("displacement", "displacement", 1e6, "µm")
 

@@ -18,9 +18,9 @@ from ..specimens.specimen import Specimen
 
 #: Steps that are timed, after some that are not.
 _STEPS, _FIRST = 40, 5
-#: Fewest and most steps of compressions over the likely number of their rate, which is one of large
-#: packings: seven images took 1.8 to 4.3 times it, two small packings 1.0 and 1.7.
-_RANGE = (0.9, 4.5)
+#: Fewest and most steps of compressions over their likely number: seven images took 0.7 to 1.8
+#: times that number, two small packings 0.6 and 1.0.
+_RANGE = (0.45, 2.25)
 
 
 @dataclass(frozen=True)

@@ -19,11 +19,13 @@ from yade import wrapper
 
 from ..files import Table
 from ..kinds.registry import of_ends
+from ..materials.mixing import mineral_materials
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
-from ..runs.loading_rate import Loading, Scales, Schedule, schedule
+from ..runs.likely import BRITTLE, Softening
+from ..runs.loading_rate import WAITING_MODELS, Loading, Scales, Schedule, schedule
 from ..specimens.space.any_spec import is_solid
 
 
@@ -78,6 +80,12 @@ def part_of(part: float, whole: float) -> float:
     if part == 0.0:
         return 0.0
     return float(part / whole) if whole != 0.0 else math.inf
+
+
+def _softening_length(energies: Sequence[float], strengths: Sequence[float]) -> float:
+    """Mean of twice an energy over its strength [m], 0 of what has no strength."""
+    pairs = zip(energies, strengths, strict=True)
+    return float(np.mean([2.0 * one / strength if strength else 0.0 for one, strength in pairs]))
 
 
 class Readings(Protocol):
@@ -246,4 +254,18 @@ class RigReadings(ABC):
             confinement=pressure,
             dt=dt,
             solid=self.solid,
+            softening=self._softening(),
+        )
+
+    def _softening(self) -> Softening:
+        """Softening of the contacts, means over the minerals."""
+        if self.built.name not in WAITING_MODELS:
+            return BRITTLE
+        laws = [kind.law(self.built.name) for kind in mineral_materials(self.built.material)]
+        tensile = [law["tensile_strength"] for law in laws]
+        cohesion = [law["cohesion"] for law in laws]
+        return Softening(
+            _softening_length([law["tensile_fracture_energy"] for law in laws], tensile),
+            _softening_length([law["shear_fracture_energy"] for law in laws], cohesion),
+            float(np.mean(cohesion)),
         )

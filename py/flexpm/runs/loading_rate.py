@@ -15,6 +15,7 @@ from ..kinds.rates import Rates
 from ..kinds.registry import KINDS, OWN, kind_of
 from ..kinds.test_kind import PLATEAU_STRAIN, STOP_RATIO
 from ..require import Bounds, require_flag, require_number, require_one_of, require_text
+from .likely import BRITTLE, Softening, likely_transits, slowing
 
 #: Factors on the default loading rate that a test may have [-].
 RATE = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
@@ -219,6 +220,7 @@ def schedule(
     confinement: float = 0.0,
     dt: float = 1.0,
     solid: bool = False,
+    softening: Softening = BRITTLE,
 ) -> Schedule:
     """Loading rate and end of a test.
 
@@ -233,6 +235,7 @@ def schedule(
         confinement: Lateral pressure [Pa].
         dt: Time step [s], or 1 with scaled masses.
         solid: The specimen is one of space.
+        softening: Softening of its contacts, from which the likely steps follow.
 
     Raises:
         InputError: for a test that would never end.
@@ -258,11 +261,18 @@ def schedule(
         slowest = min(SLOWEST_WAIT * fastest, 1.0)
         growth = SOFTENING_GROWTH * loading.rate
     if loading.kind == "waiting":
-        if rates.likely_crossings is not None:
-            slowed = rates.likely_crossings / loading.rate**kind.likely_power
-            likely = slowed * scales.crossing_steps
+        displacement = reference * scales.height
+        if rates.likely_crossings is None:
+            slower = slowing(rates, softening, displacement=displacement, strength=scales.strength)
+            likely = slower * steps / fastest
         else:
-            likely = steps / fastest
+            transits = likely_transits(
+                *(kind, rates, softening),
+                displacement=displacement,
+                confined=confinement / scales.strength,
+                stop_ratio=loading.stop_ratio,
+            )
+            likely = transits / loading.rate**kind.likely_power * scales.crossing_steps
     else:
         # most tests end well before the largest strain: up to that of the reference strength they
         # go at the fastest rate, then about as far at the slowest

@@ -68,12 +68,20 @@ KIND = TestKind(
     takes_notch=True,
     layout=bent.on_rollers,
     rates={
-        "flexible": Rates(0.01, 0.005, (0.004, 0.012), 0.01, likely_crossings=100),
-        "rigid": Rates(0.01, 0.0015, (0.002, 0.004), 0.01, likely_crossings=155),
+        "flexible": Rates(
+            0.01, 0.005, (0.004, 0.012), 0.01, likely_crossings=10, likely_softening=680
+        ),
+        "rigid": Rates(
+            0.01, 0.0015, (0.002, 0.004), 0.01, likely_crossings=17, likely_softening=600
+        ),
     },
     solid_rates={
-        "flexible": Rates(0.01, 0.005, (0.004, 0.012), 0.01, likely_crossings=100),
-        "rigid": Rates(0.01, 0.0015, (0.002, 0.004), 0.01, likely_crossings=155),
+        "flexible": Rates(
+            0.01, 0.005, (0.004, 0.012), 0.01, likely_crossings=10, likely_softening=1050
+        ),
+        "rigid": Rates(
+            0.01, 0.0015, (0.002, 0.004), 0.01, likely_crossings=17, likely_softening=1100
+        ),
     },
     stop_ratio=0.1,  # its work counts up to the end
     largest_strain=20.0,  # it is bent until it is broken through

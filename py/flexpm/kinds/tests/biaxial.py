@@ -21,8 +21,10 @@ KIND = TestKind(
     confined=True,
     stages=(Stage.CONFINE, Stage.LOAD),
     rates={
-        "flexible": Rates(0.0025, 0.001, (0.0017, 0.045), 0.003, likely_crossings=125),
-        "rigid": Rates(0.01, 0.003, (0.022, 0.1), 0.0075, likely_crossings=130),
+        "flexible": Rates(
+            0.0025, 0.001, (0.0017, 0.045), 0.003, likely_crossings=85, likely_softening=180
+        ),
+        "rigid": Rates(0.01, 0.003, (0.022, 0.1), 0.0075, likely_crossings=145),
         **dict.fromkeys(("inner", "inner-un"), _INNER),
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },

@@ -61,14 +61,14 @@ KIND = TestKind(
         **dict.fromkeys(("jcfpm", "cohfrict"), 3),
     },
     rates={
-        "flexible": Rates(0.01, 0.008, (0.033, 0.028), 0.01, likely_crossings=42),
-        "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=100),
+        "flexible": Rates(0.01, 0.008, (0.033, 0.028), 0.01, likely_crossings=85),
+        "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=180),
         **dict.fromkeys(("inner", "inner-un"), _INNER),
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     solid_rates={
-        "flexible": Rates(0.01, 0.008, (0.033, 0.028), 0.01, likely_crossings=42),
-        "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=100),
+        "flexible": Rates(0.01, 0.008, (0.033, 0.028), 0.01, likely_crossings=140),
+        "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=300),
     },
     largest_strain=16.0,  # plates press into discs, which softening lets carry more
     falls_freely=True,

@@ -64,15 +64,29 @@ KIND = TestKind(
     layout=bent.on_rollers,
     rates={
         "flexible": Rates(
-            0.01, 0.006, (0.0055, 0.012), 0.01, waiting_constant=0.08, likely_crossings=400
+            0.01,
+            0.006,
+            (0.0055, 0.012),
+            0.01,
+            waiting_constant=0.08,
+            likely_crossings=23,
+            likely_softening=400,
         ),
-        "rigid": Rates(0.01, 0.003, (0.006, 0.02), 0.01, likely_crossings=180),
+        "rigid": Rates(0.01, 0.003, (0.006, 0.02), 0.01, likely_crossings=30, likely_softening=150),
     },
     solid_rates={
         "flexible": Rates(
-            0.01, 0.006, (0.0055, 0.012), 0.01, waiting_constant=0.08, likely_crossings=400
+            0.01,
+            0.006,
+            (0.0055, 0.012),
+            0.01,
+            waiting_constant=0.08,
+            likely_crossings=23,
+            likely_softening=930,
         ),
-        "rigid": Rates(0.01, 0.003, (0.012, 0.02), 0.01, likely_crossings=180),
+        "rigid": Rates(
+            0.01, 0.003, (0.012, 0.02), 0.01, likely_crossings=30, likely_softening=1020
+        ),
     },
     stop_ratio=0.1,
     largest_strain=20.0,

@@ -23,14 +23,20 @@ KIND = TestKind(
     rig=Rig.ENDS,
     pulls=True,
     rates={
-        "flexible": Rates(0.01, 0.0045, (0.005, 0.6), 0.01, likely_crossings=19),
-        "rigid": Rates(0.02, 0.005, (0.017, 0.1), 0.02, likely_crossings=58),
+        "flexible": Rates(
+            0.01, 0.0045, (0.005, 0.6), 0.01, likely_crossings=6, likely_softening=140
+        ),
+        "rigid": Rates(0.02, 0.005, (0.017, 0.1), 0.02, likely_crossings=18, likely_softening=150),
         **dict.fromkeys(("inner", "inner-un"), _INNER),
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     solid_rates={
-        "flexible": Rates(0.02, 0.009, (0.018, 0.6), 0.01, 0.32, likely_crossings=33),
-        "rigid": Rates(0.04, 0.01, (0.07, 0.5), 0.02, 0.32, likely_crossings=100),
+        "flexible": Rates(
+            0.02, 0.009, (0.018, 0.6), 0.01, 0.32, likely_crossings=14, likely_softening=190
+        ),
+        "rigid": Rates(
+            0.04, 0.01, (0.07, 0.5), 0.02, 0.32, likely_crossings=32, likely_softening=150
+        ),
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     falls_freely=True,

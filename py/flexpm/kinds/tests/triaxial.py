@@ -52,8 +52,8 @@ KIND = TestKind(
     ),
     settle=_settle,
     solid_rates={
-        "flexible": Rates(0.005, 0.0015, (0.0025, 0.06), 0.002, likely_crossings=125),
-        "rigid": Rates(0.01, 0.003, (0.022, 0.1), 0.0075, likely_crossings=130),
+        "flexible": Rates(0.005, 0.0015, (0.0025, 0.06), 0.002, likely_crossings=115),
+        "rigid": Rates(0.01, 0.003, (0.022, 0.1), 0.0075, likely_crossings=200),
     },
     falls_freely=True,
     is_core=True,

@@ -25,14 +25,16 @@ KIND = TestKind(
     static_models=("flexible",),
     controls=_CONTROLS,
     rates={
-        "flexible": Rates(0.005, 0.0015, (0.0025, 0.06), 0.002, likely_crossings=60),
-        "rigid": Rates(0.01, 0.004, (0.02, 0.15), 0.005, likely_crossings=130),
+        "flexible": Rates(
+            0.005, 0.0015, (0.0025, 0.06), 0.002, likely_crossings=50, likely_softening=140
+        ),
+        "rigid": Rates(0.01, 0.004, (0.02, 0.15), 0.005, likely_crossings=150),
         **dict.fromkeys(("inner", "inner-un"), _INNER),
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     solid_rates={
-        "flexible": Rates(0.01, 0.003, (0.008, 0.15), 0.002, 0.32, likely_crossings=68),
-        "rigid": Rates(0.02, 0.008, (0.09, 0.5), 0.005, 0.32, likely_crossings=170),
+        "flexible": Rates(0.01, 0.003, (0.008, 0.15), 0.002, 0.32, likely_crossings=58),
+        "rigid": Rates(0.02, 0.008, (0.09, 0.5), 0.005, 0.32, likely_crossings=155),
         **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
     },
     falls_freely=True,
