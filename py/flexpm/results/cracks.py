@@ -7,6 +7,7 @@ The table also names the points of bonds that a script has erased, which are no 
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from enum import IntEnum
 from pathlib import Path
@@ -134,6 +135,26 @@ def count_by_pair(cracks: Sequence[AnyCrack]) -> dict[str, dict[str, int]] | Non
             counts = found.setdefault(one.pair, dict.fromkeys(MODES.values(), 0))
             counts[MODES[one.mode]] += 1
     return dict(sorted(found.items())) or None
+
+
+def count_softened_by_pair(
+    snapshot: Snapshot | SolidSnapshot, cracks: Sequence[AnyCrack], minerals: Sequence[str]
+) -> dict[str, int] | None:
+    """Points of each pair of minerals that have begun to soften; None if all grains are alike.
+
+    Cracked points are included. A point is softening if its damage lies between 0 and 1.
+
+    Args:
+        snapshot: The state.
+        cracks: Cracks in this state.
+        minerals: Names of the minerals, if grains differ.
+    """
+    softening = (snapshot.point_damage > 0.0) & (snapshot.point_damage < 1.0)
+    rows = snapshot.point_contact[softening & (snapshot.crack_mode == 0)]
+    pairs = _pairs(snapshot, minerals, len(snapshot.contact))
+    found = Counter(pairs[row] for row in rows.tolist())
+    found.update(one.pair for one in cracks if one.mode in MODES)
+    return dict(sorted((pair, count) for pair, count in found.items() if pair)) or None
 
 
 def cracks_from_snapshot(

@@ -49,6 +49,9 @@ LARGEST_GROWTH_OF_JOINTS = {"flexible": 0.012, "rigid": 0.0065}
 #: cracks come one after the other, and the load tells nothing. Errors above 2 % that nothing else
 #: names begin at 15; up to 5 they are 1.1 % at most (``doc/record/rates``).
 LARGEST_RATE_OF_JOINTS = 5.0
+#: Rows of the record from 5 % of the largest stress up to it that are not few. A wave
+#: crosses the specimen in eight rows; at the rates in use the elastic loading takes three transits.
+FEWEST_ROWS = 10
 #: Difference of the peaks of two rates, one half of the other, that is none [-]: half of what the
 #: limits of a single loading let pass (D75).
 LARGEST_PEAK_CHANGE = 0.01
@@ -265,6 +268,23 @@ def of_rise(reached: str) -> str:
         f"status = no_peak, the load still rose at {reached}, where a loading ends by default; "
         "give Loading(max_strain=...) to go on"
     )
+
+
+def of_few_rows(rows: int, steps: int, rate: float | None) -> list[str]:
+    """Warn of a loading that ended before its rate could be judged.
+
+    Args:
+        rows: Rows of the record from 5 % of the largest stress up to it.
+        steps: Steps of the test.
+        rate: Factor on the loading rate [-].
+    """
+    if rows >= FEWEST_ROWS:
+        return []
+    now = "" if rate is None else f" (--rate, now {rate:g})"
+    return [
+        f"rows while loaded = {rows} in {steps} steps, must be >= {FEWEST_ROWS} to judge the "
+        f"loading rate; the stress may be that of a wave, lower the rate{now}"
+    ]
 
 
 def peak_change(loadings: Sequence[Table]) -> float | None:

@@ -323,6 +323,12 @@ def unbalanced_under_way(curve: Curve) -> float | None:
     return _while_loaded(curve, np.column_stack((curve["unbalanced_ratio"], rates)), quantile)
 
 
+def rows_while_loaded(curve: Curve) -> int:
+    """Number of rows from 5 % of the largest stress up to it, by which a rate is judged."""
+    number = _while_loaded(curve, np.ones(len(curve)), np.sum)
+    return 0 if number is None else round(number)
+
+
 def end_mismatch(curve: Curve) -> float | None:
     """Largest difference of both ends' reactions over the larger one, over the same rows [-]."""
     return _while_loaded(curve, curve["end_mismatch"], np.nanmax)

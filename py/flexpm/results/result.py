@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ..files import Table, json_text, load_json, output_folder, write_text
-from ..kinds.registry import kind_of
+from ..kinds.registry import OWN, kind_of
 from ..kinds.test_kind import Rig
 from ..notebook import Shown
 from . import core, doubts, measures, waves
@@ -72,6 +72,8 @@ class Result(Shown):
     tensile_cracks: int = 0  #: cracked points
     shear_cracks: int = 0  #: cracked points
     cracks_by_pair: Table | None = None  #: tensile and shear ones of each pair of minerals
+    #: points of each pair of minerals that have begun to soften, cracked ones included
+    softened_by_pair: Table | None = None
     unbalanced_ratio: float | None = None  #: largest up to the peak [-]
     end_mismatch: float | None = None  #: of both ends' reactions, largest up to the peak [-]
     energy_error: float | None = None  #: relative to the largest work [-]
@@ -168,6 +170,10 @@ class Result(Shown):
         found += doubts.of_grains(self.grains_across)
         found += doubts.of_poissons_ratio(self.poissons_ratio, self.elastic_poissons_ratio)
         found += doubts.of_result(self.status, self.energy_error, mismatch, rate)
+        kind = kind_of(self.test)
+        if kind.quasi_static and kind is not OWN and len(self.curve):
+            rows = measures.rows_while_loaded(record)
+            found += doubts.of_few_rows(rows, self.steps, rate)
         if self.rates:
             found += doubts.of_rates(self.rates, self.status)
         if kind_of(self.test).is_core and (first := measures.regained_peak(self.curve)):

@@ -395,6 +395,10 @@ def test_a_picture_has_a_legend_of_the_cracks_of_each_pair(tmp_path, monkeypatch
     assert result.cracks_by_pair
     for pair, counts in result.cracks_by_pair.items():
         assert f"{pair}: {counts['tensile']} tensile, {counts['shear']} shear" in texts
+        assert sum(counts.values()) <= result.softened_by_pair[pair]
+    damaged = result.snapshot.point_damage > 0.0
+    assert sum(result.softened_by_pair.values()) == np.count_nonzero(damaged)
+    assert flexpm.Result.read(tmp_path).softened_by_pair == result.softened_by_pair
     assert {"quartz", "biotite", "k-feldspar"} <= set(texts)
 
 

@@ -45,6 +45,7 @@ KEYS = [
     "tensile_cracks",
     "shear_cracks",
     "cracks_by_pair",
+    "softened_by_pair",
     "unbalanced_ratio",
     "end_mismatch",
     "energy_error",

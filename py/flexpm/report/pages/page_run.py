@@ -320,14 +320,22 @@ def _reading(result: Result) -> str:
 
 
 def _pairs_table(result: Result) -> Rows | None:
-    """Cracked points of each pair of minerals; None if grains are alike."""
-    if not result.cracks_by_pair:
-        return None
+    """Softened and cracked points of each pair of minerals; None if grains are alike."""
+    cracked, softened = result.cracks_by_pair or {}, result.softened_by_pair or {}
+    none = dict.fromkeys(MODES.values(), 0)
     rows = [
-        (pair, *(str(counts[mode]) for mode in MODES.values()))
-        for pair, counts in result.cracks_by_pair.items()
+        (
+            pair,
+            *(str(cracked.get(pair, none)[mode]) for mode in MODES.values()),
+            str(softened.get(pair, "-")),
+        )
+        for pair in sorted({*cracked, *softened})
     ]
-    return Rows("Cracked points by pair of minerals", ("pair", *MODES.values()), rows)
+    if not rows:
+        return None
+    note = "Softened: points that have begun to soften, cracked ones included."
+    names = ("pair", *MODES.values(), "softened")
+    return Rows("Cracked and softened points by pair of minerals", names, rows, note)
 
 
 def _rates_table(result: Result) -> Rows | None:

@@ -10,7 +10,7 @@ from yade import wrapper
 from ..._version import __version__
 from ...kinds.registry import kind_of
 from ...models.grains import Model, SolidModel
-from ...results.cracks import count_by_pair, cracks_from_snapshot
+from ...results.cracks import count_by_pair, count_softened_by_pair, cracks_from_snapshot
 from ...results.emission import EventRule, event_rule
 from ...results.result import Result
 from ...results.solids.state import SolidSnapshot
@@ -51,6 +51,7 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
     kinds = [kind["name"] for kind in result.material.get("minerals", ())]
     result.cracks = cracks_from_snapshot(snapshot, result.curve, kinds)
     result.cracks_by_pair = count_by_pair(result.cracks)
+    result.softened_by_pair = count_softened_by_pair(snapshot, result.cracks, kinds)
     # before it is loaded, or where its motion was prescribed, a script's own test has no scales
     loaded = rig.planned and len(result.curve) > 0
     sudden = rig.may_fail_at_once and not rig.diverged and loaded
