@@ -149,6 +149,29 @@ def test_each_key_of_a_material_out_of_range(capsys, tmp_path, key):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        "uniaxial --width 10000 --height 10000",
+        "brazilian --diameter 100000",
+        "scb --diameter 100000 --notch 10000",
+        "bending --length 100000 --height 10000",
+        "uniaxial --shape box --width 10 --depth 10 --height 10",
+        "triaxial --diameter 10 --height 10",
+        "brazilian --diameter 10 --depth 10",
+        "scb --diameter 10 --depth 10 --notch 1",
+    ],
+)
+def test_all_shapes_are_asked_for_their_memory_before_they_are_packed(
+    capsys, monkeypatch, tmp_path, arguments
+):
+    monkeypatch.setattr(cli.inputs, "load_yade", lambda: 1 / 0)  # nothing is packed
+    out = tmp_path / "out"
+    line = refused(capsys, "run", *arguments.split(), "--out", str(out))
+    assert "grains = " in line and "GB of memory, must be at most" in line
+    assert not out.exists()
+
+
 def test_discs_that_do_not_fit(capsys, tmp_path):
     folder = str(tmp_path)
     for arguments in (["--width", "0.005"], ["--diameters", "0.05,0.06"]):

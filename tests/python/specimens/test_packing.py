@@ -13,6 +13,9 @@ from flexpm import _flexpm
 from flexpm.errors import InputError, SimulationError
 from flexpm.specimens import packing
 from flexpm.specimens.space.frame import SolidFrame
+from flexpm.specimens.space.spec import SolidSpec
+from flexpm.specimens.spec import SpecimenSpec
+from flexpm.specimens.specimen import Specimen
 
 UNIT = 3e-3
 
@@ -296,3 +299,28 @@ def test_spatial_order_keeps_neighbours_close():
     assert sorted(order) == list(range(400))
     steps = np.hypot(*np.diff(points[order], axis=0).T)
     assert steps.mean() < 2.5
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Specimen.rectangle(1e4, 1e4, 0.08),
+        lambda: Specimen.disc(1e4, 0.08),
+        lambda: Specimen.half_disc(1e5, 0.08),
+        lambda: Specimen.polygon([(0, 0), (1e4, 0), (1e4, 1e4), (5e3, 2e4)], 0.08),
+        lambda: Specimen.box(10.0, 10.0, 10.0),
+        lambda: Specimen.cylinder(10.0, 20.0),
+        lambda: Specimen.solid_disc(10.0, 10.0),
+        lambda: Specimen.solid_half_disc(10.0, 10.0),
+    ],
+)
+def test_all_shapes_are_asked_for_their_memory_before_they_are_packed(monkeypatch, make):
+    monkeypatch.setattr(packing, "pack", lambda *_: 1 / 0)  # nothing is packed
+    with pytest.raises(InputError, match=r"grains = .*, need .* GB of memory, must be at most"):
+        make()
+
+
+def test_a_spec_of_a_larger_machine_can_be_read():
+    """Only who packs needs the memory."""
+    assert SpecimenSpec("rectangle", width=1e4, height=1e4).sizes["width"] == 1e4
+    assert SolidSpec("box", 10.0, 10.0, 10.0).volume == pytest.approx(1e3)
