@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import json
+import signal
 import subprocess
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from killed_scripts import content, ended, killed, require_same, started
 from PIL import Image
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
@@ -313,3 +315,54 @@ def test_a_table_that_names_other_files_is_refused(tmp_path, name):
     with pytest.raises(InputError, match="is no frame"):
         frames.FrameWriter(folder, 2, {}, resumed_at=99)
     assert (tmp_path / "victim.vtu").exists()
+
+
+PULLED_BACK = """
+import flexpm
+made = flexpm.Specimen.rectangle(0.012, 0.012, 0.01, seed=1)
+
+rig = flexpm.PartRig(flexpm.build(made, model="rigid"), frames=1, out="out")
+top, floor = (rig.platen(side, bonded=True, friction=0.3) for side in (2, 0))
+rig.drive(top, (0.0, -1.0), against=floor, area=1.2e-4, length=0.012)
+rig.strain_to(-1e-6)
+"""
+
+
+def test_an_own_test_that_has_gone_back_is_taken_up_with_its_frames(tmp_path):
+    assert ended(started(tmp_path, PULLED_BACK)) == (0, "")
+    before = frames.read(tmp_path / "out")
+    assert ended(started(tmp_path, PULLED_BACK + "rig.strain_to(-2e-6)\n")) == (0, "")
+    after = frames.read(tmp_path / "out")
+    assert after[: len(before)] == before and after[-1].axial_strain < -1.9e-6
+
+
+CYCLED = """
+import flexpm
+made = flexpm.Specimen.rectangle(0.012, 0.012, 0.01, seed=1)
+
+built = flexpm.build(made, model="rigid")
+rig = flexpm.PartRig(built, out="out", frames=3, checkpoint_interval=INTERVAL)
+floor, top = rig.platen(0, friction=0.5), rig.platen(2, friction=0.5)
+rig.drive(top, (0.0, -1.0), against=floor)
+rig.cycle(50.0, 2)
+rig.load(flexpm.Loading(rate=RATE, kind="waiting"))
+"""
+
+
+@pytest.mark.long
+def test_a_killed_own_test_has_the_frames_of_an_unbroken_one(tmp_path):
+    (tmp_path / "whole").mkdir()
+    assert ended(started(tmp_path / "whole", CYCLED)) == (0, "")
+    whole = tmp_path / "whole" / "out"
+    last = content(whole)["steps"]
+    moments = [[(signal.SIGKILL, last // 3)], [(signal.SIGKILL, 2 * last // 3)]]
+    killed(tmp_path, CYCLED, moments)
+    for number in range(len(moments)):
+        folder = tmp_path / str(number)
+        require_same(folder, whole)
+        assert frames.read(folder) == frames.read(whole)
+        files = sorted(file.name for file in (folder / frames.FOLDER).iterdir())
+        assert files == sorted(file.name for file in (whole / frames.FOLDER).iterdir())
+        for name in files:
+            pair = ((one / frames.FOLDER / name).read_bytes() for one in (folder, whole))
+            assert len({*pair}) == 1, name
