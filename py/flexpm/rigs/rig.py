@@ -131,7 +131,7 @@ class TestRig(RigReadings):
         self._tell("load", **asdict(loading))
         begin = partial(self.start, loading)
         if loading.static:
-            self._stage(partial(self._begin_preload, loading), self._is_over)
+            self._stage(partial(self._begin_preload, loading), self._is_over, "elastic start")
             begin = partial(self._begin_release, loading)
         entered = self._stage(begin, self._is_over)
         by_default = entered and loading.max_strain is None and not self.diverged

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import itertools
+from types import SimpleNamespace
+
 import pytest
 
 import flexpm
@@ -41,6 +44,18 @@ def test_the_steps_of_the_loading_are_told_once(test, model, confinement, tmp_pa
     # a complete run has nothing left to tell
     carry_out(plan_run(spec, specimen, material, tmp_path), foresee=told.append)
     assert len(told) == 1
+
+
+def test_the_few_steps_of_an_elastic_start_are_not_told(monkeypatch):
+    seconds = itertools.count(step=0.6 * runner._LOOK_UP)  # a look at each step, as of slow steps
+    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
+    specimen = flexpm.Specimen.rectangle(0.012, 0.024, thickness=0.01, seed=1)
+    material = flexpm.materials.load(None)
+    spec = RunSpec("tension", specimen.spec, described(material, "flexible"), "flexible", **FAST)
+    told = []
+    result = carry_out(plan_run(spec, specimen, material), foresee=lambda *one: told.append(one[0]))
+    (steps,) = told
+    assert 0.2 * result.steps < steps < 5.0 * result.steps
 
 
 @pytest.mark.parametrize(
