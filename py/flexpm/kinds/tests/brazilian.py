@@ -68,7 +68,7 @@ KIND = TestKind(
     },
     solid_rates={
         "flexible": Rates(0.01, 0.008, (0.033, 0.028), 0.01, likely_crossings=140),
-        "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=300),
+        "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=550),
     },
     largest_strain=16.0,  # plates press into discs, which softening lets carry more
     falls_freely=True,
