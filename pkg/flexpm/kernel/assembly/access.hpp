@@ -5,6 +5,7 @@
 
 #include <flexpm/kernel/assembly/assembly.hpp>
 #include <flexpm/kernel/assembly/triangle_rows.hpp>
+#include <flexpm/kernel/core/mean.hpp>
 
 #include <algorithm>
 #include <array>
@@ -59,11 +60,7 @@ inline const LawParameters& own_law(const Assembly& a, int grain)
 /// Mean of value(grain) over all grains. Equal values give exactly that value.
 template <class Value> double grain_mean(const Grains& grains, Value value)
 {
-    const double first = value(0);
-    double excess = 0.0;
-    for (int g = 1; g < grains.count; ++g)
-        excess += value(g) - first;
-    return first + excess / grains.count;
+    return mean_of(grains.count, value);
 }
 
 /// Call visit(index) for each component of each node of a grain.
