@@ -84,8 +84,8 @@ def checked(minerals: object) -> tuple[Mineral, ...]:
             raise InputError(f"mineral = {name!r}, is there twice; give each a name of its own")
         if name.startswith(_RESERVED):
             raise InputError(
-                f"mineral = {quoted(name)}, must not begin with {' or '.join(_RESERVED)}, as keys of "
-                "joints and interfaces do; give it another name"
+                f"mineral = {quoted(name)}, must not begin with {' or '.join(_RESERVED)}, as "
+                "keys of joints and interfaces do; give it another name"
             )
     total = math.fsum(mineral.fraction for mineral in made)
     if made and abs(total - 1.0) > _SUM_TOLERANCE:

@@ -47,12 +47,13 @@ OPTIONS = st.one_of(
 )
 #: Images and maps that are there.
 IMAGES = ("colours.png", "grey.png", "palette.png", "lzw.tif", "labels.npy", "a.tesr", "b.tesr")
+SETS_OPEN = ("--set", "joint.bedding.open=true", "--set", "joint.steep.open=true")
 #: Files of a run in 2D.
 READ_2D = (
     ("--specimen", "grains.json"),
     ("--joints", "joints.csv", "--material", "material.toml", "--set", "joint.bed-1.open=true"),
     ("--joints", "a.geojson", "--set", "joint.a.open=true"),
-    ("--network", "network.toml", "--set", "joint.bedding.open=true"),
+    ("--network", "network.toml", *SETS_OPEN),
 )
 COMMANDS = st.sampled_from(
     [
