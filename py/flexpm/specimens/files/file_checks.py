@@ -44,6 +44,8 @@ _CHORD = 3.0
 _OUTSIDE = 0.75
 #: Farthest contacts of a joint from its lines, in mean diameters [-].
 _FARTHEST = 3.0
+#: Largest distance of two pieces of a sawn grain, in largest diameters [-].
+_LARGEST_GRAIN = 2.0
 #: Most joints of which all ways are tried in which they may have been cut.
 _MOST_JOINTS = 10
 
@@ -305,6 +307,11 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
         numbers, first = np.unique(grains, return_index=True)
         if not (np.array_equal(numbers, np.arange(len(first))) and np.all(np.diff(first) > 0)):
             raise refuse("grains = others, must be numbered as they come first")
+        if sawn and spec.diameters is not None:
+            points = found["discs"][:, :2]
+            apart = np.hypot(*(points - points[first[grains]]).T)
+            if not apart.max() <= _LARGEST_GRAIN * spec.diameters[1]:
+                raise refuse("grains = others, must be pieces that a saw has parted")
         # what a cut has parted meets at the cut, but for the few cells that had to be split
         pairs = found["tessellation"].shared_edges[:, :2]
         parted = grains[pairs[:, 0]] == grains[pairs[:, 1]]
