@@ -7,6 +7,7 @@ Closed forms of deviation D104: strength times area, and Coulomb's angle.
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 
 import numpy as np
@@ -51,7 +52,7 @@ def bricks(offset: float) -> flexpm.Specimen:
             if offset:
                 ends = np.insert(ends, -1, 4.0 * SIDE - offset * SIDE)
         low, high = row * SIDE, (row + 1) * SIDE
-        for left, right in zip(ends[:-1], ends[1:], strict=True):
+        for left, right in itertools.pairwise(ends):
             polygons.append([(left, low), (right, low), (right, high), (left, high)])
     return flexpm.Specimen.from_polygons(polygons, THICKNESS)
 
