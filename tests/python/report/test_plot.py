@@ -10,13 +10,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 from matplotlib.image import imread
 from sample_snapshot import GRADIENT, HEIGHT, WIDTH, wall
 
-from flexpm.report import curves, maps, style
+from flexpm.report import comparison, curves, maps, style
 from flexpm.results.cracks import SHEAR, TENSILE
 from flexpm.results.record import COLUMNS, Curve
 from flexpm.results.result import Result
+from flexpm.results.strength import Envelope
 
 
 def pixels_like(path, colour):
@@ -248,3 +250,40 @@ def test_a_shear_test_is_drawn_over_its_displacement(tmp_path, monkeypatch):
     assert (*peak.get_xdata(), *peak.get_ydata()) == pytest.approx((0.8, 3.0))
     assert curves.places_of(result, 1.5e-5) == pytest.approx(0.6)
     assert drawn[0].get_xlabel() == "displacement [µm]"
+
+
+@pytest.mark.parametrize("loc", ["left", "center"])
+@pytest.mark.parametrize("words", [3, 14, 30])
+def test_a_title_stays_within_its_picture(tmp_path, loc, words):
+    """Also that of a narrow map, whose axes begin far from the left edge."""
+    text = " ".join(["granite,"] * words)
+    figure = Figure(figsize=(2.2, 6.0), layout="constrained")
+    axes = figure.add_subplot()
+    axes.set_ylabel("stress [MPa]")
+    axes.set_title(text, loc=loc)
+    style.save(figure, tmp_path / "a.png")
+    (title,) = style._titles_of(axes)
+    figure.draw_without_rendering()
+    box = title.get_window_extent()
+    assert box.x1 < figure.bbox.width and (loc == "left" or box.x0 > 0.0)
+    assert title.get_text().split() == text.split()
+
+
+def test_an_envelope_says_what_it_shows(tmp_path, monkeypatch):
+    shown = {}
+    monkeypatch.setattr(comparison, "save", lambda figure, _: shown.update(axes=figure.axes[0]))
+    peaks = {0.0: 120e6, 4e6: 150e6, 8e6: 172e6}
+    one = Envelope.of("flexible", list(peaks), list(peaks.values()))
+    runs = [(c, peak, "not_quasistatic" if c else "ok") for c, peak in peaks.items()]
+    runs.append((12e6, None, "no_peak"))
+    comparison.envelope_picture(tmp_path / "a.png", [one], None, "biaxial, augig-table7", runs)
+    axes = shown["axes"]
+    assert axes.get_title("left").splitlines() == [
+        "biaxial, augig-table7",
+        "1 of 4 runs have no peak and are left out",
+    ]
+    lines = {line.get_label(): line for line in axes.lines}
+    named = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert len(named) == len(axes.lines) == 4  # peaks, both criteria, doubtful peaks
+    assert lines["not_quasistatic"].get_xydata().tolist() == [[4.0, 150.0], [8.0, 172.0]]
+    assert any(label.startswith("flexible: c = ") for label in named)
