@@ -51,7 +51,7 @@ def test_a_pulse_has_the_speed_of_the_continuum(bar, model, wave, free, off):
     solved = flexpm.elastic(made, model=model)
     asked = {"sides": "free"} if free else {}
     result = flexpm.run("sonic", made, model=model, wave=wave, report=False, **asked)
-    rock = flexpm.materials.load(None, model)
+    rock = flexpm.materials.load(None, model, solid=True)
     found = solved["youngs_modulus"], solved["poissons_ratio"]
     assert ratio_of(result, found, rock, wave, free=free) == pytest.approx(1.0, abs=off)
     assert (result.status, result.failed, result.warnings) == ("ok", False, [])
@@ -84,7 +84,7 @@ def test_a_pulse_goes_through_a_cylinder_of_rigid_grains(wave):
     solved = flexpm.elastic(core, model="rigid")
     result = flexpm.run("sonic", core, model="rigid", wave=wave, report=False)
     found = solved["youngs_modulus"], solved["poissons_ratio"]
-    rock = flexpm.materials.load(None, "rigid")
+    rock = flexpm.materials.load(None, "rigid", solid=True)
     assert ratio_of(result, found, rock, wave) == pytest.approx(1.0, abs=0.05)
     assert result.energy_error < 1e-9
 
