@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The compiled module: what of it is no class of YADE. SI units."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from enum import IntEnum
 from typing import TypedDict
 
@@ -223,10 +223,7 @@ def test_state(
     stress: float,
     peak: float,
     strain: float,
-    stop_ratio: float,
-    least_peak: float,
-    min_strain: float,
-    max_strain: float,
+    rule: Sequence[float],
     plateau: bool,
 ) -> EnumClass_TestState: ...
 def is_plateau(strains: FloatArray, stresses: FloatArray, plateau_strain: float) -> bool: ...

@@ -47,7 +47,7 @@ MEASURED_A_CROSSING = 8
 #: Stages that end at rest, or with an error.
 _AT_REST_STAGES = ("confine", "press", "fluid", "settle", "relax", "unload", "cycle", "excavate")
 #: What the state of a record that has ended says.
-_ENDS = {
+_ENDS: dict[int, str] = {
     TestState.past_peak: "drop",
     TestState.plateau_reached: "plateau",
     TestState.largest_strain_reached: "largest_strain",

@@ -312,8 +312,8 @@ class SphereRig(TestRig):
             end_mismatch=end_mismatch(*forces),
             velocity_factor=1.0,
         )
-        plateau = self._has_plateau
-        now.state = int(test_state(stress - confinement, now.peak, axial, *now.end, plateau))
+        deviator = stress - confinement
+        now.state = int(test_state(deviator, now.peak, axial, now.end, self._has_plateau))
 
     @property
     def _has_plateau(self) -> bool:

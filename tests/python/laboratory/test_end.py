@@ -8,6 +8,7 @@ import pytest
 
 import flexpm
 from flexpm.results.measures import differential_stress
+from flexpm.runs import loading_rate
 
 PRESSURE = 12e6
 #: A rock that breaks at this pressure in a few inner particles too, and the strain that it needs.
@@ -52,38 +53,51 @@ def test_a_confined_test_ends_by_the_stress_above_the_confinement(
     assert strain[-1] < 0.055
 
 
-#: Specimens of both dimensions and the confined test of each.
+#: Specimen of both dimensions, the confined test of each, and a pressure under which its deviator
+#: is constant within 2 % over a strain of 0.1 % before it fails [Pa].
 CONFINED = {
-    "plane": ("biaxial", lambda: flexpm.Specimen.rectangle(0.012, 0.024, thickness=0.01, seed=1)),
-    "space": ("triaxial", lambda: flexpm.Specimen.cylinder(0.01, 0.016, seed=1)),
+    "plane": (
+        *("biaxial", 20e6),
+        lambda: flexpm.Specimen.rectangle(0.012, 0.024, thickness=0.01, seed=1),
+    ),
+    "space": ("triaxial", 10e6, lambda: flexpm.Specimen.cylinder(0.01, 0.016, seed=1)),
 }
+PLATEAU = 1e-3
 
 
-def plateau_rows(result: flexpm.Result, end: int) -> np.ndarray:
-    """Deviators of the rows before `end` within half a per cent of strain."""
+def range_before(result: flexpm.Result, end: int) -> float:
+    """Range of the deviator over the strain of a plateau up to a row, over its largest value."""
     strain = result.curve["axial_strain"][:end]
-    return differential_stress(result.curve)[:end][strain > strain[-1] - 0.005]
+    first = int(np.flatnonzero(strain[-1] - strain >= PLATEAU)[-1])
+    rows = differential_stress(result.curve)[first:end]
+    return float(np.ptp(rows) / rows.max())
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("where", CONFINED)
-def test_a_confined_test_ends_on_a_plateau_unless_a_strain_is_given(where):
-    test, made = CONFINED[where]
+def test_a_confined_test_ends_on_a_plateau_unless_a_strain_is_given(where, monkeypatch):
+    # small specimens harden or fall: a shorter plateau than that of the rule shows the rule
+    monkeypatch.setattr(loading_rate, "PLATEAU_STRAIN", PLATEAU)
+    test, pressure, made = CONFINED[where]
     specimen = made()
-    asked = {"model": "rigid", "confinement": 60e6, "rate": 8.0}
+    asked = {"model": "rigid", "confinement": pressure, "rate": 4.0}
     result = flexpm.run(test, specimen, **asked)
     assert result.ended_by == "plateau"
-    assert result.curve["axial_strain"][-1] > 0.005
-    last = plateau_rows(result, len(result.curve))
-    assert np.ptp(last) <= 0.02 * last.max()
-    # and not a row earlier
-    before = plateau_rows(result, len(result.curve) - 1)
-    strain = result.curve["axial_strain"]
-    rows = int(np.argmax(strain > strain[-2] - 0.005)) - 1
-    before = np.append(before, differential_stress(result.curve)[rows])
-    assert np.ptp(before) > 0.02 * before.max()
-    further = 1.2 * strain[-1]
+    rows = len(result.curve)
+    assert range_before(result, rows) <= 0.02
+    started = int(np.argmax(result.curve["axial_strain"] > PLATEAU))
+    for end in range(started + 2, rows):  # and at no row before
+        assert range_before(result, end) > 0.02
+    further = result.curve["axial_strain"][-1] + PLATEAU
     longer = flexpm.run(test, specimen, max_strain=further, **asked)
     assert longer.ended_by == "largest_strain"
     assert longer.curve["axial_strain"][-1] >= further
-    assert np.array_equal(longer.curve.array[: len(strain)], result.curve.array)
+    assert np.array_equal(longer.curve.array[:rows], result.curve.array)
+
+
+def test_a_plateau_ends_only_tests_under_a_pressure_without_a_largest_strain():
+    scales = loading_rate.Scales(100.0, 3e10, 1e8, 0.03, 0.015)
+    for pressure, largest, expected in ((5e6, None, 0.005), (0.0, None, 0.0), (5e6, 0.02, 0.0)):
+        asked = loading_rate.Loading(max_strain=largest)
+        plan = loading_rate.schedule("biaxial", "rigid", asked, scales, confinement=pressure)
+        assert plan.plateau_strain == expected

@@ -14,7 +14,7 @@ from sample_snapshot import HEIGHT, WIDTH, wall
 
 from flexpm.errors import InputError
 from flexpm.results import measures
-from flexpm.results.cracks import Crack
+from flexpm.results.cracks import Crack, SolidCrack
 from flexpm.results.record import COLUMNS, Curve
 from flexpm.results.result import Result
 
@@ -492,3 +492,45 @@ def test_the_kinetic_energy_is_looked_at_where_a_test_peaks_and_ends():
     assert measures.kinetic_shares(Curve()) == {}
     record["boundary_work"][:] = np.nan
     assert measures.kinetic_shares(record) == {}
+
+
+@pytest.mark.parametrize("height", [None, 0.0])
+def test_first_cracks_far_from_the_middle_of_a_split_disc_are_told(height):
+    centre, radius = (0.03, 0.02), 0.01
+    for share, told in ((0.2, False), (0.8, True)):
+        result = result_of(triangular_record(), test="brazilian")
+        steps = (50, 60, 61, 62, 63, 99)  # the last is not one of the first
+        angles = np.linspace(0.0, 3.0, len(steps))
+        far = np.append(np.full(len(steps) - 1, share), 0.1) * radius
+        places = np.transpose(centre) + np.transpose([np.cos(angles), np.sin(angles)] * far)
+        made = Crack if height is None else SolidCrack
+        for step, (x, y) in zip(steps, places.tolist(), strict=True):
+            along = (x, y) if height is None else (x, 0.004)
+            more = () if height is None else (np.nan, "", y)
+            result.cracks.append(made(step, 0.1, *along, 1, 0, 0, *more))
+        result.measure(QUASISTATIC)
+        result.measure_splitting(centre, radius)
+        assert result.first_crack_distance == pytest.approx(share)
+        stress = np.interp(steps[0], result.curve["step"], result.curve["axial_stress"])
+        assert result.first_crack_stress == pytest.approx(stress)
+        lines = [line for line in result.warnings if "first_crack_distance" in line]
+        assert len(lines) == told
+        assert all("no tensile strength" in line and "peak at" in line for line in lines)
+    empty = result_of(triangular_record(), test="brazilian")
+    empty.measure_splitting(centre, radius)
+    assert (empty.first_crack_distance, empty.first_crack_stress) == (None, None)
+
+
+def test_a_test_without_a_peak_tells_the_stress_of_its_plateau():
+    record = triangular_record(last_stress=0.95 * PEAK)
+    rows = record.array.copy()
+    strain, stress = (COLUMNS.index(name) for name in ("axial_strain", "axial_stress"))
+    level = np.tile(rows[-1], (300, 1))
+    level[:, strain] += 1e-4 * np.arange(1, 301)
+    level[:, stress] = 123e6 + 1e6 * (np.arange(300) % 2)
+    result = result_of(Curve.from_array(np.vstack([rows, level])))
+    result.measure(QUASISTATIC)
+    assert result.status == "no_peak"
+    assert result.without_peak == "no strength was found"
+    result.ended_by = "plateau"
+    assert "constant at 123.5 MPa" in result.without_peak

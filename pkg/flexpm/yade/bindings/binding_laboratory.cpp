@@ -44,10 +44,11 @@ namespace {
 
 	double endMismatch(double bottom, double top) { return flexpm::end_mismatch({ bottom, top }); }
 
-	flexpm::TestState
-	testState(double stress, double peak, double strain, double stopRatio, double leastPeak, double minStrain, double maxStrain, bool plateau)
+	/// @param rule  stop ratio, least peak, least and largest strain, as in flexpm::TestEnd
+	flexpm::TestState testState(double stress, double peak, double strain, const py::object& rule, bool plateau)
 	{
-		return flexpm::test_state(stress, peak, strain, { stopRatio, leastPeak, minStrain, maxStrain }, plateau);
+		const auto of = [&](int i) { return double(py::extract<double>(rule[i])); };
+		return flexpm::test_state(stress, peak, strain, { of(0), of(1), of(2), of(3) }, plateau);
 	}
 
 	bool isPlateau(py::object strains, py::object stresses, double plateauStrain)
@@ -127,15 +128,9 @@ void register_laboratory_bindings()
 	py::def("ramp_factor", flexpm::ramp_factor, (py::arg("step"), py::arg("ramp_steps")), "Part of the full load in the coming step of a ramp [-].");
 	py::def("test_state",
 	        testState,
-	        (py::arg("stress"),
-	         py::arg("peak"),
-	         py::arg("strain"),
-	         py::arg("stop_ratio"),
-	         py::arg("least_peak"),
-	         py::arg("min_strain"),
-	         py::arg("max_strain"),
-	         py::arg("plateau")),
-	        "Whether a test is over; stresses are those above the confinement [Pa].");
+	        (py::arg("stress"), py::arg("peak"), py::arg("strain"), py::arg("rule"), py::arg("plateau")),
+	        "Whether a test is over; stresses are those above the confinement [Pa]. The rule has the stop ratio, the least peak, and the least and the "
+	        "largest strain.");
 	py::def("is_plateau",
 	        isPlateau,
 	        (py::arg("strains"), py::arg("stresses"), py::arg("plateau_strain")),
