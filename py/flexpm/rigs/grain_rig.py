@@ -122,9 +122,7 @@ class GrainRig(TestRig):
         try:
             return Scales(**self._recorder.scales())
         except ValueError as error:
-            raise InputError(
-                f"load: {error}; what is driven must be held against by what is not cut off from it"
-            ) from None
+            raise InputError(f"load: {error}") from None
         except RuntimeError as error:  # a piece of the specimen is free to move
             raise InputError(
                 f"load: {error}, or lay parts that the loading does not lift"

@@ -72,7 +72,7 @@ def column(model: str, pulse_grains: int, *, free: bool, grains: float = 3.0) ->
     count = int(grains * pulse_grains)
     size = 0.06 / count
     square = size * np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
-    cells = [square + (0.0, size * number) for number in range(count)]
+    cells = [square + size * np.array((0.0, number)) for number in range(count)]
     law = flexpm.materials.load("augig-table7").law(model)
     soft = 1.0 / (law["normal_stiffness"] * size)
     if model == "flexible":  # plane stress, no strain across

@@ -364,8 +364,10 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
         mass += 2.0 * kinetic_of_velocity(moved, set);
     const double stiffness = part_load_rate(moved, parts, moved.grains.velocity);
     // what moves with them as one feels round-off alone
-    const double felt = stiffness > no_resistance * springs_of(moved, parts) ? stiffness : 0.0;
-    check_positive("stiffness that the driven parts feel", felt, "N/m");
+    if (!(stiffness > no_resistance * springs_of(moved, parts))) {
+        refuse("stiffness that the driven parts feel", 0.0, "N/m",
+            "must be > 0; hold against them what is not cut off from them");
+    }
     const double modulus = stiffness * parts.length / parts.area;
     double failure = 0.0;
     if (strength == 0.0) {

@@ -450,7 +450,10 @@ TestScales solid_part_scales(
     require_resistance(specimen, parts);
     const SolidPartState moved = moved_state(std::move(specimen), parts, dt);
     const double stiffness = moved.load / moved.way, softening = moved.softening;
-    check_positive("stiffness that the driven plates feel", stiffness, "N/m");
+    if (!(stiffness > 0.0)) {
+        refuse("stiffness that the driven parts feel", stiffness, "N/m",
+            "must be > 0; hold against them what is not cut off from them");
+    }
     const double mass = 2.0 * kinetic_of_velocities(moved.state);
     const double width = std::sqrt(parts.area), modulus = stiffness * parts.length / parts.area;
     const ScaleInputs inputs = scale_inputs(s, Sense::compression, width, dt);

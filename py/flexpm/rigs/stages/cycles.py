@@ -88,8 +88,8 @@ class PartCycles(PartPressures):
         With real masses the displacement follows its times, in straight lines between them, as a
         boundary condition: waves carry it into the specimen, whose far end may be free, and the
         stage ends in motion. With scaled masses, where time means nothing, and by load the values
-        are come to one after the other at the loading rate; equal ones that follow each other are held
-        until all is at rest, and so is the last one.
+        are come to one after the other at the loading rate; equal ones that follow each other are
+        held until all is at rest, and so is the last one.
 
         Args:
             times: Rising [s], or a CSV file with a row of names, at most one row of units (as s, N,
