@@ -226,7 +226,8 @@ def test_a_bar_with_a_free_end_is_followed_and_saved(model, seed, tmp_path):
     low = rig.hold(where=lambda x, y: y < 2e-3)
     rig.drive(low, (0.0, 1.0))
     rig.follow([0.0, 2e-5, 4e-5], [0.0, 1e-9, 1e-9])
-    assert rig.motion_energy == 0.0 and rig.warnings == []
+    work = rig.record["boundary_work"][-1]
+    assert abs(rig.motion_energy) < 1e-9 * work and rig.warnings == []
     rig.relax()
     rig.finish()
     result = flexpm.Result.read(tmp_path)

@@ -82,6 +82,7 @@ def test_an_indentation_comes_to_its_peak_by_default(model, tmp_path):
     assert result.peak_load == record.max() and record[-1] < 0.9 * record.max()
 
 
+@pytest.mark.long
 def test_the_indentation_of_a_solid_comes_to_its_peak_by_default():
     yade.O.reset()
     box = flexpm.Specimen.box(0.012, 0.012, 0.008, seed=1)
@@ -94,6 +95,7 @@ def test_the_indentation_of_a_solid_comes_to_its_peak_by_default():
     assert rig.warnings == []
 
 
+@pytest.mark.long
 def test_a_point_load_across_a_core_comes_to_its_peak_by_default():
     yade.O.reset()
     core = flexpm.Specimen.cylinder(0.01, 0.012, diameters=(2e-3, 3e-3), seed=1)
