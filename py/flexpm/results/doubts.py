@@ -61,8 +61,6 @@ LARGEST_ENERGY_ERROR = 0.01
 LARGEST_TAKEN = 0.1
 #: Ratio of a softening length to that of the rock, or of the mixing rule, without a warning [-].
 LARGEST_SOFTENING_RATIO = 2.0
-#: Mode of each strength, for messages.
-_MODE_OF = {"tensile_strength": "tension", "cohesion": "shear"}
 #: Joints that one warning names.
 _NAMED_JOINTS = 5
 #: Difference from a set point by which a row has missed it [-].
@@ -130,8 +128,8 @@ def of_softening(material: Table) -> list[str]:
         material: Effective parameters, as result.json has them.
     """
     return [
-        f"{one.contact}: softening length = {1e6 * one.length:.3g} um in "
-        f"{_MODE_OF[one.strength]}, is {one.ratio:.3g} times the usual one (limit "
+        f"{one.contact}: softening length 2 G / {one.strength} = {1e6 * one.length:.3g} um, "
+        f"is {one.ratio:.3g} times the usual one (limit "
         f"{LARGEST_SOFTENING_RATIO:g}), as {one.strength} is lower and the fracture energy is not: "
         f"points soften early and crack late; lower {ENERGY_OF[one.strength]} by the square of the "
         f"ratio of strengths, as factor.{one.strength} of an interface does"

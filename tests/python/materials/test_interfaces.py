@@ -122,7 +122,8 @@ def test_an_absolute_strength_that_makes_softening_long_is_told(key):
     length = 2.0 * usual[STRENGTHS[key]] / usual[key]
     assert softening_warnings(rock({"pair": PAIR, key: 0.51 * usual[key]})) == []
     (line,) = softening_warnings(rock({"pair": PAIR, key: 0.4 * usual[key]}))
-    assert line.startswith(f"interface biotite/quartz: softening length = {2.5e6 * length:.3g} um")
+    assert line.startswith(f"interface biotite/quartz: softening length 2 G / {key} = ")
+    assert f" = {2.5e6 * length:.3g} um, is" in line
     assert "is 2.5 times the usual one (limit 2)" in line and STRENGTHS[key] in line
     # factors lower the energy, too, and an energy that is given is meant
     assert softening_warnings(rock({"pair": PAIR, "factor": {key: 0.1}})) == []
@@ -133,7 +134,8 @@ def test_an_absolute_strength_that_makes_softening_long_is_told(key):
 def test_a_mineral_with_a_lower_strength_than_its_rock_is_told():
     kinds = [*ROCK["mineral"][:1], {"name": "mica", "fraction": 0.5, "tensile_strength": 2e6}]
     (line,) = softening_warnings(Material.from_dict(copy.deepcopy(ROCK) | {"mineral": kinds}))
-    assert line.startswith("mineral mica: softening length = 20 um in tension, is 4.25 times")
+    length = "softening length 2 G / tensile_strength = 20 um, is 4.25 times"
+    assert line.startswith(f"mineral mica: {length}")
 
 
 def test_the_key_of_a_run_holds_the_energies_in_effect():
