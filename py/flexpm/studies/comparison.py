@@ -174,7 +174,7 @@ def compare(
             ),
             chosen,
         )
-        for model, chosen in _materials(models, material, specimen).items()
+        for model, chosen in _materials(models, material, is_solid(specimen.spec.kind)).items()
         for confinement in _each_once("confinements", confinements)
     ]
     if folder is not None:
@@ -233,11 +233,11 @@ def _cell(value: float | None, one: Shown) -> str:
 def _materials(
     models: Sequence[str],
     material: Material | str | Mapping[str, Material | str] | None,
-    specimen: Specimen | SolidSpecimen,
+    solid: bool,
 ) -> dict[str, Material]:
-    """Material of each model."""
+    """Material of each model, of 3D specimens if `solid`."""
     names = _each_once("models", models)
-    shared = default_name(solid=is_solid(specimen.spec.kind))
+    shared = default_name(solid=solid)
     if isinstance(material, Mapping) and set(material) <= set(names):
         return {model: load_material(material.get(model, shared), model) for model in names}
     chosen = shared if material is None else material

@@ -11,7 +11,7 @@ from matplotlib.image import imread
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.materials.references import reference_of
-from flexpm.models.options import MODELS
+from flexpm.models.options import MODELS, SPHERE_MODELS
 from flexpm.studies import comparison
 
 CONFINEMENTS = (0.0, 1e6, 3e6)
@@ -151,11 +151,15 @@ def test_wrong_comparisons_are_one_line_and_exit_code_2(capsys, tmp_path, argume
 
 
 def test_all_models_have_one_material_unless_told_otherwise():
-    found = comparison._materials(MODELS, None)
-    assert {material.name for material in found.values()} == {"augig-table7"}
-    for model, material in found.items():
-        material.law(model)  # it has a set for each
-    some = comparison._materials(("flexible", "rigid"), {"rigid": "augig-table2-bilinear"})
+    for solid, models, name in (
+        (False, MODELS, "augig-table7"),
+        (True, ("flexible", "rigid", *SPHERE_MODELS), "augig3d-calibrated"),
+    ):
+        found = comparison._materials(models, None, solid)
+        assert {material.name for material in found.values()} == {name}
+        for model, material in found.items():
+            material.law(model)  # it has a set for each
+    some = comparison._materials(("flexible", "rigid"), {"rigid": "augig-table2-bilinear"}, False)
     assert [one.name for one in some.values()] == ["augig-table7", "augig-table2-bilinear"]
 
 
@@ -169,12 +173,16 @@ def test_the_command_gives_all_models_one_material_and_names_it(capsys, tmp_path
     for file in files:
         assert json.loads(file.read_text())["material"]["name"] == "augig-table7"
     assert "augig-table7" in said
-    assert "augig-table2" not in said
+    shown = [line for line in said.splitlines() if not line.startswith("warning: ")]
+    assert "augig-table2" not in "".join(shown)
+    # the default of a comparison was calibrated for one of the models
+    told = [line for line in said.splitlines() if "the run is 2D with model jcfpm" in line]
+    assert len(told) == 1
 
 
 def test_materials_by_model_and_the_rock_they_stand_for(specimen):
     made = {"flexible": "augig-table2-brittle", "rigid": "augig-table7"}
-    found = comparison._materials(tuple(made), made)
+    found = comparison._materials(tuple(made), made, False)
     assert {model: material.name for model, material in found.items()} == made
     assert reference_of("augig-table7").cohesion == 21e6
     assert reference_of("two-minerals") is None
