@@ -203,9 +203,12 @@ def contact_modulus(normal_stiffness: float, mean_diameter: float) -> float: ...
 def reference_strength(
     tension: bool, tensile_strength: float, cohesion: float, friction: float
 ) -> float: ...
+def bond_strengths(
+    strengths: FloatArray, areas: FloatArray, pairs: IntArray, spheres: int
+) -> tuple[float, float]: ...
 def rectangle_scales(
     modulus: float,
-    strength: float,
+    strengths: tuple[float, float],
     mass: float,
     thickness: float,
     dt: float,
@@ -213,7 +216,12 @@ def rectangle_scales(
     height: float,
 ) -> dict[str, float]: ...
 def disc_scales(
-    modulus: float, strength: float, mass: float, thickness: float, dt: float, diameter: float
+    modulus: float,
+    strengths: tuple[float, float],
+    mass: float,
+    thickness: float,
+    dt: float,
+    diameter: float,
 ) -> dict[str, float]: ...
 def axial_stress(bottom: float, top: float, area: float, tension: bool) -> float: ...
 def end_mismatch(bottom: float, top: float) -> float: ...

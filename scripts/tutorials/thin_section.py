@@ -38,10 +38,11 @@ print(
     f"{specimen.grains.max() + 1} grains, quartz {1e6 * quartz:.2f} mm2 of {1e6 * drawn:.2f} drawn"
 )
 
-# 3. The rock, and the same with weak boundaries between its minerals.
+# 3. The rock, and the same with weak boundaries between its minerals. Factors of strengths take
+#    their squares of the fracture energies, so that weak boundaries are as brittle as strong ones.
 rock = flexpm.materials.load(Path(__file__).with_name("two_minerals.toml"))
 pair = "interface.feldspar/quartz"
-weak = rock.with_set([f"{pair}.cohesion=10e6", f"{pair}.tensile_strength=3e6"])
+weak = rock.with_set([f"{pair}.factor.{key}=0.35" for key in ("cohesion", "tensile_strength")])
 
 # 4. Both in compression, until a little past their peaks.
 for name, material in (("as mixed", rock), ("weak", weak)):

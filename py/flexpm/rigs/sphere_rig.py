@@ -21,6 +21,7 @@ from yade import utils
 from .._flexpm import (
     StrainGauge,
     axial_stress,
+    bond_strengths,
     contact_modulus,
     disc_scales,
     end_mismatch,
@@ -136,10 +137,9 @@ class SphereRig(TestRig):
     def scales(self) -> Scales:
         """What the loading rate follows from, of the contacts alone."""
         specimen, mean = self.built.specimen, self.built.laws.mean
-        strengths = (mean(key) for key in ("tensile_strength", "cohesion", "friction"))
         inputs = (
             contact_modulus(mean("normal_stiffness"), specimen.mean_diameter),
-            reference_strength(self.tension or self.disc, *strengths),
+            self._strengths(),
             in_order(state.mass for state in self.built.states()),
             specimen.thickness,
             yade.O.dt,
@@ -148,6 +148,19 @@ class SphereRig(TestRig):
             return Scales(**disc_scales(*inputs, self._height))
         width = specimen.thickness if self.solid else specimen.dimensions["width"]
         return Scales(**rectangle_scales(*inputs, width, self._height))
+
+    def _strengths(self) -> tuple[float, float]:
+        """Reference strength of the weakest bonds, and of those that connect the spheres [Pa]."""
+        laws, bonds = self.built.laws, self.built.bonds
+        keys = ("tensile_strength", "cohesion", "friction")
+        pulled = self.tension or self.disc
+        if laws.are_alike or not len(bonds):
+            strength = reference_strength(pulled, *map(laws.mean, keys))
+            return strength, strength
+        values = np.column_stack([laws.of_contacts(key, bonds.grains) for key in keys])
+        strengths = np.array([reference_strength(pulled, *row) for row in values.tolist()])
+        pairs = bonds.grains.astype(np.int32)
+        return bond_strengths(strengths, bonds.areas, pairs, len(self.built.specimen.radii))
 
     def unbalanced(self) -> float:
         """Largest resultant on what is free to move over the mean contact force [-].

@@ -98,13 +98,14 @@ class Scales:
 
     crossing_steps: float  #: steps in which a wave crosses the specimen
     modulus: float  #: stress over strain of the record, roughly [Pa]
-    strength: float  #: that the contacts alone would give [Pa]
+    strength: float  #: that the contacts which connect the grains alone would give [Pa]
     height: float  #: [m]
     width: float  #: [m]
     damage_share: float = 0.0  #: least part of a fracture energy that damage takes; 0: brittle [-]
     #: strain at which the specimen would fail as a whole, where the strength follows from the first
     #: contact point that softens; 0: else [-]
     failure_strain: float = 0.0
+    lowest_strength: float = 0.0  #: the same of the weakest contacts [Pa]; 0: all are alike
 
 
 @dataclass(frozen=True)
@@ -225,7 +226,8 @@ def schedule(
     """Loading rate and end of a test.
 
     v = k eps_ref H / T with T the steps in which a wave of the scaled masses crosses the height
-    and eps_ref the strain of the reference strength.
+    and eps_ref the strain of the lowest strength. The end follows the strength of the contacts that
+    connect the grains: the test does not end when the weakest ones have broken.
 
     Args:
         test: Name of the test, which has a constant of its own.
@@ -244,7 +246,8 @@ def schedule(
     # each pascal of confinement adds at least one to the strength of a frictional contact
     reference = (scales.strength + confinement) / scales.modulus
     crossing_time = scales.crossing_steps * dt
-    velocity = loading.rate * rates.constant * reference / crossing_time * scales.height
+    slowest_strain = ((scales.lowest_strength or scales.strength) + confinement) / scales.modulus
+    velocity = loading.rate * rates.constant * slowest_strain / crossing_time * scales.height
     # under a stress concentration a first point softens long before the specimen fails
     largest = loading.max_strain or kind.largest_strain * max(reference, scales.failure_strain)
     steps = largest * scales.height / (velocity * dt)

@@ -36,6 +36,9 @@ _EDGE_NORMALS = 1
 #: Part of the results number of runs that ``--dynamic`` gives real masses; 1: their loading is a
 #: boundary condition, and no quasi-static plan sets velocities of grains.
 _REAL_MASSES = 1
+#: Part of the results number of runs of several minerals; 1: the loading rate follows their weakest
+#: contacts, which was that of their mean.
+_MINERALS = 1
 
 
 @dataclass(frozen=True)
@@ -164,6 +167,7 @@ def results_number(
     solid: bool = False,
     edge_normals: bool = False,
     dynamic: bool = False,
+    minerals: bool = False,
 ) -> int:
     """Number that distinguishes results of a test and model from those before they changed.
 
@@ -176,10 +180,11 @@ def results_number(
         solid: Whether the specimen is 3D.
         edge_normals: Whether it has bonds with normals of edges, see ``RunInputs``.
         dynamic: Whether ``--dynamic`` gives it real masses.
+        minerals: Whether its grains have several minerals, whose weakest contacts fix the rate.
     """
     kind = kind_of(test)
     number = (kind.solid_results if solid else kind.results).get(model, 1)
-    return number + _EDGE_NORMALS * edge_normals + _REAL_MASSES * dynamic
+    return number + _EDGE_NORMALS * edge_normals + _REAL_MASSES * dynamic + _MINERALS * minerals
 
 
 def results_of(run: RunInputs) -> int:
@@ -190,6 +195,7 @@ def results_of(run: RunInputs) -> int:
         solid=run.is_solid,
         edge_normals=run.has_edge_normals,
         dynamic=run.dynamic and not run.kind.dynamic,
+        minerals=bool(run.material.get("minerals")),
     )
 
 

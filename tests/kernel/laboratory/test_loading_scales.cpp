@@ -4,12 +4,14 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/bond_strengths.hpp>
 #include <flexpm/kernel/laboratory/loading_scales.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 
 #include "support/specimens.hpp"
 
 #include <cmath>
+#include <vector>
 
 using namespace flexpm;
 
@@ -63,6 +65,61 @@ TEST_CASE("Grains and contacts stand in series; rigid grains leave the contacts 
             Sense::compression, { law.tensile_strength, law.cohesion, law.friction }));
     CHECK(in.thickness == a.thickness);
     CHECK(in.mass > 0.0);
+}
+
+TEST_CASE("The lowest strength is the one that 1 % of the bonded area do not exceed")
+{
+    const auto bonds = [](double weak_area) {
+        return std::vector<BondValue> { { 5.0, 100.0 - weak_area, { 0, 1 } },
+            { 1.0, weak_area, { 1, 2 } }, { 7.0, 1e-3, { 2, 3 } } };
+    };
+    CHECK(lowest_value(bonds(0.9)) == 5.0);
+    CHECK(lowest_value(bonds(1.1)) == 1.0);
+    // two laws that are both rare count together
+    CHECK(lowest_value({ { 5.0, 98.8, {} }, { 1.0, 0.6, {} }, { 2.0, 0.6, {} } }) == 2.0);
+}
+
+TEST_CASE("Bonds that connect half of the grains carry what the weaker ones have lost")
+{
+    // parents of three grains each, in a row: weak within, strong between, and the other way round
+    std::vector<BondValue> weak_within, weak_between;
+    for (int g = 0; g < 8; ++g) {
+        const bool within = g % 3 != 2;
+        weak_within.push_back({ within ? 0.001 : 1.0, 1.0, { g, g + 1 } });
+        weak_between.push_back({ within ? 1000.0 : 1.0, 1.0, { g, g + 1 } });
+    }
+    // a chain through the middles of the parents
+    CHECK(connecting_value(weak_within, 9) == 0.001);
+    for (const int g : { 0, 3 })
+        weak_within.push_back({ 1.0, 1.0, { g, g + 3 } });
+    CHECK(connecting_value(weak_within, 9) == 1.0);
+    CHECK(connecting_value(weak_between, 9) == 1.0);
+    // where joints cut the specimen in two, half of one piece is enough
+    CHECK(connecting_value({ { 3.0, 1.0, { 0, 1 } }, { 2.0, 1.0, { 2, 3 } } }, 4) == 3.0);
+}
+
+TEST_CASE("Strengths of a test are those of the laws of pairs, whatever single bonds have")
+{
+    const auto s = specimens::grid(3, 4, 2e-3);
+    AssemblyOptions o = specimens::options();
+    o.elastic.push_back(o.elastic[0]);
+    const auto law = [](double tensile) {
+        ContactMaterial m = specimens::granite_contact();
+        m.tensile_fracture_energy *= tensile * tensile;
+        m.tensile_strength *= tensile;
+        return m;
+    };
+    // columns of grains 0 and 2 are of one kind, the middle one is of the other
+    o.laws = { law(1.0), law(0.25), law(0.25), law(2.0) };
+    o.grain_material = { 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0 };
+    const double whole = specimens::granite_contact().tensile_strength;
+    const ScaleInputs in = scale_inputs(specimens::assemble(s, o), Sense::tension, 1.0);
+    CHECK(in.lowest_strength == Approx(0.25 * whole));
+    CHECK(in.strength == Approx(0.25 * whole));  // the columns are connected by weak bonds alone
+    o.laws = { law(0.25), law(1.0), law(1.0), law(2.0) };
+    const ScaleInputs connected = scale_inputs(specimens::assemble(s, o), Sense::tension, 1.0);
+    CHECK(connected.lowest_strength == Approx(0.25 * whole));
+    CHECK(connected.strength == Approx(whole));
 }
 
 TEST_CASE("Both ends share the stress; what one has more than the other is their mismatch")

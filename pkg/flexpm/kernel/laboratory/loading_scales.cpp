@@ -16,13 +16,6 @@ double crossing_steps(const ScaleInputs& in, double width, double height)
     return std::sqrt(in.mass * height / (in.modulus * width * in.thickness)) / in.dt;
 }
 
-ContactStrength mean_strength(const Assembly& a)
-{
-    return { grain_mean(a.grains, [&](int g) { return own_law(a, g).tensile_strength; }),
-        grain_mean(a.grains, [&](int g) { return own_law(a, g).cohesion; }),
-        grain_mean(a.grains, [&](int g) { return own_law(a, g).friction; }) };
-}
-
 double mean_modulus(const Assembly& a)
 {
     double diameter = 0.0;
@@ -59,13 +52,13 @@ double reference_strength(Sense sense, const ContactStrength& contact)
 TestScales rectangle_scales(const ScaleInputs& inputs, double width, double height)
 {
     return { crossing_steps(inputs, width, height), inputs.modulus, inputs.strength, height, width,
-        inputs.damage_share };
+        inputs.damage_share, 0.0, inputs.lowest_strength };
 }
 
 TestScales disc_scales(const ScaleInputs& inputs, double diameter)
 {
     return { crossing_steps(inputs, 0.25 * pi * diameter, diameter), 0.25 * inputs.modulus,
-        inputs.strength, diameter, diameter, inputs.damage_share };
+        inputs.strength, diameter, diameter, inputs.damage_share, 0.0, inputs.lowest_strength };
 }
 
 double damage_share(const LawParameters& law)
@@ -76,13 +69,7 @@ double damage_share(const LawParameters& law)
     return std::max(1.0 - elastic, 0.0);
 }
 
-double damage_share(const Assembly& a)
-{
-    double least = 1.0;
-    for (int g = 0; g < a.grains.count; ++g)
-        least = std::min(least, damage_share(own_law(a, g)));
-    return least;
-}
+double damage_share(const Assembly& a) { return scale_inputs(a, Sense::tension, 1.0).damage_share; }
 
 double failure_displacement(const ScaleInputs& compressed, double extent)
 {
@@ -93,12 +80,13 @@ ScaleInputs scale_inputs(const Assembly& a, Sense sense, double dt)
 {
     ScaleInputs in;
     in.modulus = mean_modulus(a);
-    in.strength = reference_strength(sense, mean_strength(a));
     for (double m : a.grains.inverse_mass)
         in.mass += m > 0.0 ? 1.0 / m : 0.0;
     in.thickness = a.thickness;
     in.dt = dt;
-    in.damage_share = damage_share(a);
+    const Contacts& contacts = a.contacts;
+    take_bonds(
+        in, a, sense, [&](int c) { return contacts.bonded[c] != 0 && contacts.joint[c] < 0; });
     return in;
 }
 

@@ -378,7 +378,7 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
         failure = failure_displacement(inputs, extent) / parts.length;
     }
     return { std::sqrt(3.0 * mass / stiffness) / dt, modulus, strength, parts.length,
-        a.length_of(parts.area), damage_share(a), failure };
+        a.length_of(parts.area), damage_share(a), failure, strength };
 }
 
 }  // namespace flexpm

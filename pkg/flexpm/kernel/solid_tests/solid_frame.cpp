@@ -271,17 +271,11 @@ ScaleInputs scale_inputs(const SolidState& s, Sense sense, double thickness, dou
 {
     ScaleInputs in;
     in.modulus = mean_modulus(s);
-    in.strength = reference_strength(sense,
-        { grain_mean(s.grains, [&](int g) { return own_law(s, g).tensile_strength; }),
-            grain_mean(s.grains, [&](int g) { return own_law(s, g).cohesion; }),
-            grain_mean(s.grains, [&](int g) { return own_law(s, g).friction; }) });
     for (double m : s.grains.inverse_mass)
         in.mass += m > 0.0 ? 1.0 / m : 0.0;
     in.thickness = thickness;
     in.dt = dt;
-    in.damage_share = 1.0;
-    for (int g = 0; g < s.grains.count; ++g)
-        in.damage_share = std::min(in.damage_share, damage_share(own_law(s, g)));
+    take_bonds(in, s, sense, [](int) { return true; });
     return in;
 }
 

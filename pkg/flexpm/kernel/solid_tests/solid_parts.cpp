@@ -464,7 +464,7 @@ TestScales solid_part_scales(
         failure = failure_displacement(inputs, extent) / parts.length;
     }
     return { std::sqrt(3.0 * mass / stiffness) / dt, modulus, strength, parts.length, width,
-        inputs.damage_share, failure };
+        inputs.damage_share, failure, strength };
 }
 
 }  // namespace flexpm

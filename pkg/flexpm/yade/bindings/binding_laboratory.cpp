@@ -6,6 +6,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/laboratory/bond_strengths.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/end_rule.hpp>
 #include <flexpm/kernel/measure/centre_strain.hpp>
@@ -15,6 +16,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace py = boost::python;
 
@@ -30,14 +33,38 @@ namespace {
 		return flexpm::reference_strength(senseOf(tension), { tensile, cohesion, friction });
 	}
 
-	py::dict rectangleScales(double modulus, double strength, double mass, double thickness, double dt, double width, double height)
+	/// Strengths of the bonds of spheres: the lowest that counts, and that of the bonds that connect them.
+	py::tuple bondStrengths(py::object strengths, py::object areas, py::object pairs, int spheres)
 	{
-		return scales_dict(flexpm::rectangle_scales({ modulus, strength, mass, thickness, dt, 0 }, width, height));
+		const InputArray<double>       values(strengths, 1, "strengths"), sizes(areas, 1, "areas");
+		const InputArray<int>          ends(pairs, 2, "pairs");
+		std::vector<flexpm::BondValue> bonds;
+		if (sizes.size(0) != values.size(0) || ends.size(0) != values.size(0) || ends.size(1) != 2)
+			flexpm::refuse(
+			        "areas, pairs",
+			        std::to_string(sizes.size(0)) + ", " + std::to_string(ends.size(0)),
+			        "must be one for each of " + std::to_string(values.size(0)) + " strengths; give two spheres for each bond");
+		for (int b = 0; b < static_cast<int>(values.size(0)); ++b)
+			bonds.push_back({ values.data()[b], sizes.data()[b], { ends.data()[2 * b], ends.data()[2 * b + 1] } });
+		if (bonds.empty()) flexpm::refuse("strengths", 0.0, "", "must be at least one; give those of the bonds");
+		return py::make_tuple(flexpm::lowest_value(bonds), flexpm::connecting_value(bonds, spheres));
 	}
 
-	py::dict discScales(double modulus, double strength, double mass, double thickness, double dt, double diameter)
+	/// Inputs of bonds that break at once, with their lowest strength and that of those that connect the spheres.
+	flexpm::ScaleInputs scaleInputs(double modulus, const py::tuple& strengths, double mass, double thickness, double dt)
 	{
-		return scales_dict(flexpm::disc_scales({ modulus, strength, mass, thickness, dt, 0 }, diameter));
+		const double lowest = py::extract<double>(strengths[0]), connecting = py::extract<double>(strengths[1]);
+		return { modulus, connecting, mass, thickness, dt, 0, lowest };
+	}
+
+	py::dict rectangleScales(double modulus, py::tuple strengths, double mass, double thickness, double dt, double width, double height)
+	{
+		return scales_dict(flexpm::rectangle_scales(scaleInputs(modulus, strengths, mass, thickness, dt), width, height));
+	}
+
+	py::dict discScales(double modulus, py::tuple strengths, double mass, double thickness, double dt, double diameter)
+	{
+		return scales_dict(flexpm::disc_scales(scaleInputs(modulus, strengths, mass, thickness, dt), diameter));
 	}
 
 	double axialStress(double bottom, double top, double area, bool tension) { return flexpm::axial_stress({ bottom, top }, senseOf(tension), area); }
@@ -108,13 +135,18 @@ void register_laboratory_bindings()
 	        referenceStrength,
 	        (py::arg("tension"), py::arg("tensile_strength"), py::arg("cohesion"), py::arg("friction")),
 	        "Strength that the contacts alone would give a specimen [Pa].");
+	py::def("bond_strengths",
+	        bondStrengths,
+	        (py::arg("strengths"), py::arg("areas"), py::arg("pairs"), py::arg("spheres")),
+	        "Lowest strength that bonds on 1 % of the area do not exceed, and the largest that connects the spheres [Pa], of bonds with these areas [m2] "
+	        "between pairs of spheres.");
 	py::def("rectangle_scales",
 	        rectangleScales,
-	        (py::arg("modulus"), py::arg("strength"), py::arg("mass"), py::arg("thickness"), py::arg("dt"), py::arg("width"), py::arg("height")),
-	        "Scales of a test of a rectangle by name, as AxialRecorder.scales.");
+	        (py::arg("modulus"), py::arg("strengths"), py::arg("mass"), py::arg("thickness"), py::arg("dt"), py::arg("width"), py::arg("height")),
+	        "Scales of a test of a rectangle by name, as AxialRecorder.scales; strengths as bond_strengths gives them.");
 	py::def("disc_scales",
 	        discScales,
-	        (py::arg("modulus"), py::arg("strength"), py::arg("mass"), py::arg("thickness"), py::arg("dt"), py::arg("diameter")),
+	        (py::arg("modulus"), py::arg("strengths"), py::arg("mass"), py::arg("thickness"), py::arg("dt"), py::arg("diameter")),
 	        "Scales of a test of a disc between two plates by name.");
 	py::def("axial_stress",
 	        axialStress,

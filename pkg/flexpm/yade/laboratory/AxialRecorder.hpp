@@ -69,7 +69,7 @@ public:
 		.def("addGauge", &AxialRecorder::addGauge, (boost::python::arg("gauge")), "Record what a :yref:`Gauge` reads in a column of its name, before the first row.")
 		.def("lostGauges", &AxialRecorder::lostGauges, "Names of the gauges that read a node of a grain that has been erased.")
 		.def("reading", &AxialRecorder::reading, (boost::python::arg("gauge")), "What the gauge of this name reads in the present state, before the first row, too [m, -, or as Gauge.reads].")
-		.def("scales", &AxialRecorder::scales, "Scales of the test by name: crossing_steps [-], modulus and strength [Pa], height and width [m]; damage_share, the least part of a fracture energy that damage takes, and failure_strain, at which a specimen between parts would fail as a whole [-].")
+		.def("scales", &AxialRecorder::scales, "Scales of the test by name: crossing_steps [-], modulus and strength [Pa], height and width [m]; damage_share, the least part of a fracture energy that damage takes, and failure_strain, at which a specimen between parts would fail as a whole [-]; lowest_strength, that of the weakest contacts [Pa].")
 	);
 	// clang-format on
 };
