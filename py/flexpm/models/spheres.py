@@ -302,8 +302,9 @@ def build(
     factor = mass_margin * (1.0 + damping) / 4.0
     masses, inertias = factor * bounds[0], factor * bounds[1]
     yade.O.dt = 1.0
-    real_masses = dynamic and not isinstance(specimen, SolidSpecimen)
-    if real_masses:
+    real_masses = False
+    if dynamic and not isinstance(specimen, SolidSpecimen):
+        real_masses = True
         real = _real_masses(specimen, laws.of_grains("density"))
         yade.O.dt = math.sqrt(float(min(np.min(real[0] / masses), np.min(real[1] / inertias))))
         masses, inertias = real

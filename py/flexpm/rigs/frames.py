@@ -174,9 +174,9 @@ class FrameWriter:
 
     def _forget_peak(self) -> None:
         """Remove the state of a peak that a larger one has followed."""
-        written = self._peak is not None and self._peak_state is None
-        if written and all(one.step != self._peak.step for one in self.frames):
-            (self._folder / self._peak.file).unlink(missing_ok=True)
+        peak = self._peak if self._peak_state is None else None  # else it was not written
+        if peak is not None and all(one.step != peak.step for one in self.frames):
+            (self._folder / peak.file).unlink(missing_ok=True)
         self._peak = self._peak_state = None
 
     def _write(self, frame: Frame, snapshot: Snapshot | SolidSnapshot) -> None:

@@ -234,11 +234,9 @@ class PartLoads(PartLayout):
                 setattr(frame, name, value)
 
     def _require_driven(self, stage: str) -> None:
-        """Refuse a stage of a loading before any part loads."""
+        """Raise InputError, which begins with `stage`, unless any part loads."""
         if not (self._frame.driven or self._frame.drivenSets):
-            raise InputError(
-                f"{stage}: driven parts = none, must be at least 1; call drive or turn"
-            )
+            raise InputError(f"{stage} driven parts = none, must be at least 1; call drive or turn")
 
     def _require_fixed(self, call: str, free: Sequence[RigPart] = ()) -> None:
         """Refuse other loads once a set is free to move as it turns, for it holds nothing then."""

@@ -110,7 +110,7 @@ class PartRig(PartColumns, PartExcavation):
         Raises:
             InputError: where no part loads, nothing holds the specimen, or nothing resists.
         """
-        self._require_driven("load")
+        self._require_driven("load:")
         if self._scales is None:
             self._require_push(1.0)
             kept = self._frame.loadingScales

@@ -148,7 +148,7 @@ def half_time(times: FloatArray, values: FloatArray) -> float:
 
 
 def errors(bar: Bar, pulse: float) -> tuple[float, float, float]:
-    """Of shape and arrival, before the far end is reached, and what runs ahead [-]."""
+    """Errors of shape and arrival, before the far end is reached, and what runs ahead [-]."""
     duration, sections = pulse / bar.speed, [0.35 * bar.length, 0.6 * bar.length]
     seen = followed(bar, pulse, 0.97 * bar.length / bar.speed)
     means = [seen.mean(place, bar) for place in sections]

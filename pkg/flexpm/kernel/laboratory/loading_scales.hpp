@@ -54,8 +54,8 @@ struct TestScales {
     /// Strain of the record at which a specimen of that size would fail as a whole, where the
     /// strength follows from its first contact point that softens; else 0 [-].
     double failure_strain = 0.0;
-    /// reference_strength() of the weakest bonds that count; between parts that of the first contact
-    /// point that softens [Pa].
+    /// reference_strength() of the weakest bonds that count [Pa]; between parts that of the first
+    /// contact point that softens.
     double lowest_strength = 0.0;
 };
 TestScales rectangle_scales(const ScaleInputs& inputs, double width, double height);

@@ -235,7 +235,7 @@ class KeptTest:
         assert rig is not None
         if self.calls.inside and rig.saves_anywhere:
             self._write(rig, f"{self._doing} is under way")
-        told = {"calls": self.calls.made, "stages": rig.stages, "reason": self._reason}
+        told: Table = {"calls": self.calls.made, "stages": rig.stages, "reason": self._reason}
         return told if self._frames is None else {**told, FRAMES: self._frames.remember()}
 
     def _write(self, rig: TestRig, ended: str) -> None:

@@ -110,7 +110,7 @@ class PartCycles(PartPressures):
         self._require_bearing("follow", by, min(wanted))
         in_time = by == "way" and self.built.dynamic
         if in_time:
-            self._require_driven("follow")
+            self._require_driven("follow:")
             self._require_start(wanted)
             if round((instants[-1] - instants[0]) / yade.O.dt) < 1:
                 raise InputError(

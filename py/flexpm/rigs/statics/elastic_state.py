@@ -130,7 +130,7 @@ class PartStatics(PartLoads):
         frame = self._frame
         way, load = required_loading(way, load)
         if load is not None or way != 0.0:
-            self._require_driven("elastic")
+            self._require_driven("elastic:")
         pressed = self._pressed(frame, {} if pressures is None else pressures)
         return solved(
             self,

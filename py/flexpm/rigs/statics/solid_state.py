@@ -87,7 +87,7 @@ class SolidPartStatics(PartStatics):
         driven = bool(frame.driven or frame.drivenSets)
         moves = asked is not None or way != 0.0
         if moves:
-            self._require_driven("elastic")
+            self._require_driven("elastic:")
         pressed = self._pressed(frame, {} if pressures is None else pressures)
         if not (driven or pressed):
             raise InputError("elastic: pressures, driven parts = none, must be some")
