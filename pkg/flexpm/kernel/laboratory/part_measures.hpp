@@ -52,8 +52,8 @@ TestFrame part_frame(const Assembly& a, const PartGeometry& parts);
 ///
 /// @param strength  stress that the test may reach, roughly [Pa]; 0: twice that at which the first
 ///                  contact point leaves its elastic branch. The failure strain is then that of the
-///                  specimen's whole extent along the loading, in compression; of parts that turn it
-///                  is an angle of that size
+///                  specimen's whole extent along the loading, in compression; of parts that turn
+///                  it is an angle of that size
 /// @throws std::invalid_argument  if the parts leave the whole specimen free to move
 /// @throws std::runtime_error     if they leave a piece of it free
 TestScales part_scales(const Assembly& a, const PartGeometry& parts, double strength, double dt);
