@@ -39,6 +39,43 @@ void list_inner_facets(Assembly& a)
     prepare_step(a);
 }
 
+double middle_of(const Assembly& a, int facet, Point direction)
+{
+    const FacetPlace place = facet_place(a, facet);
+    return 0.5 * (along(direction, place.start) + along(direction, place.end));
+}
+
+/// Facets of one plate each, divided where joints end between two of them: a plate across a joint
+/// would press on one of the blocks alone.
+std::vector<std::vector<int>> divided_at_joints(const Assembly& a,
+    const std::vector<std::vector<int>>& whole, const std::set<GrainPair>& jointed, Point direction)
+{
+    std::vector<std::vector<int>> parts;
+    for (std::vector<int> facets : whole) {
+        std::sort(facets.begin(), facets.end(),
+            [&](int e, int f) { return middle_of(a, e, direction) < middle_of(a, f, direction); });
+        parts.emplace_back();
+        for (int e : facets) {
+            if (!parts.back().empty()) {
+                const auto [one, other] =
+                    std::minmax(a.facets.grain[parts.back().back()], a.facets.grain[e]);
+                if (jointed.count({ one, other }) != 0) parts.emplace_back();
+            }
+            parts.back().push_back(e);
+        }
+    }
+    return parts;
+}
+
+/// Pairs of grains with a joint between them.
+std::set<GrainPair> jointed_pairs(const Contacts& contacts)
+{
+    std::set<GrainPair> pairs;
+    for (int c = 0; c < contacts.count; ++c)
+        if (contacts.joint[c] >= 0) pairs.insert(contacts.pairs[c]);
+    return pairs;
+}
+
 std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const PlateContact& contact)
 {
     if (pieces < 1) refuse("plates on a side", pieces, "", "must be at least 1");
@@ -58,21 +95,29 @@ std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const Pl
         }
     }
     const double width = (last - first) / pieces;
+    std::vector<std::vector<int>> groups(pieces);
+    for (int e : facets) {
+        const double middle = middle_of(a, e, direction) - first;
+        groups[std::clamp(static_cast<int>(middle / width), 0, pieces - 1)].push_back(e);
+    }
+    if (std::any_of(groups.begin(), groups.end(), [](const auto& one) { return one.empty(); }))
+        refuse("plates on a side", pieces, "", "a plate has no edge; take fewer plates");
+    const std::set<GrainPair> jointed = jointed_pairs(a.contacts);
+    const bool in_blocks = pieces > 1 && !jointed.empty();
+    if (in_blocks) groups = divided_at_joints(a, groups, jointed, direction);
     std::vector<Plate> plates;
-    for (int i = 0; i < pieces; ++i) {
+    for (const std::vector<int>& group : groups) {
         Plate p = plate_of(a, normal, contact);
         p.side = side;
         p.width = width;
         p.position = facet_place(a, facets.front()).start;
-        for (int e : facets) {
-            const FacetPlace facet = facet_place(a, e);
-            const double middle =
-                0.5 * (along(direction, facet.start) + along(direction, facet.end)) - first;
-            if (std::clamp(static_cast<int>(middle / width), 0, pieces - 1) == i)
-                p.facets.push_back(e);
-        }
-        if (p.facets.empty()) {
-            refuse("plates on a side", pieces, "", "a plate has no edge; take fewer plates");
+        p.facets = group;
+        if (in_blocks) {  // each block bears the pressure on its own edges
+            p.width = 0.0;
+            for (int e : group) {
+                const FacetPlace facet = facet_place(a, e);
+                p.width += std::fabs(along(direction, facet.end - facet.start));
+            }
         }
         p.points = points_on_facet(a, p);
         lay(a, p);
