@@ -1,14 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Detect a change of results: fourteen small commands, numbers compared with committed hashes.
+"""Detect a change of results: small commands and rigs, numbers compared with committed hashes.
 
     scripts/checks/reference.py [BUILD]            fails if a column of numbers has changed
     scripts/checks/reference.py [BUILD] --renew    writes the reference, after a wanted change
     scripts/checks/reference.py --installed        the same check of the flexpm that is installed
 
-BUILD is the build folder (default: build). The commands are five tests with flexible and with
+BUILD is the build folder (default: build). The commands are five 2D tests with flexible and with
 rigid grains, compression of inner particles, tension of YADE's two models and a study of two runs;
---quick does nine of the single runs, with the instruction set that flexpm chooses.
+five 3D tests with flexible and with rigid grains; a 2D specimen with a joint; one custom rig in 2D
+and one in 3D, with a seated support, a soft machine and a node set. --quick does nine of the 2D
+runs, with the instruction set that flexpm chooses.
 Each column of curve.csv and cracks.csv has a hash of its numbers: a file's layout may change, and a
 renamed column is renamed in reference.json. The single runs are repeated with each instruction set
 of this machine, which must give the same hashes.
@@ -38,23 +40,101 @@ ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = Path(__file__).with_name("reference.json")
 PYTHON = "/usr/bin/python3"
 
-RECTANGLE = ("--width", "0.012", "--height", "0.024", "--seed", "1")
-DISC = ("--diameter", "0.016", "--seed", "1")
+PACKED = ("--seed", "1")
+RECTANGLE = ("--width", "0.012", "--height", "0.024", *PACKED)
+DISC = ("--diameter", "0.016", *PACKED)
 TESTS = {
     "uniaxial": (*RECTANGLE, "--rate", "4"),
     "tension": (*RECTANGLE, "--rate", "1"),
     "biaxial": (*RECTANGLE, "--rate", "4", "--confinement", "5e6"),
     "brazilian": (*DISC, "--rate", "0.5"),
-    "scb": ("--diameter", "0.02", "--seed", "1", "--rate", "4"),
+    "scb": ("--diameter", "0.02", *PACKED, "--rate", "4"),
 }
-RUNS = (
-    *((test, model) for model in ("flexible", "rigid") for test in TESTS),
-    ("uniaxial", "inner"),
-    ("tension", "jcfpm"),
-    ("tension", "cohfrict"),
+#: Solids, far too fast to be quasi-static: small, and with cracks.
+SOLID_PACKED = ("--seed", "1", "--material", "augig3d-calibrated", "--rate", "16")
+SOLID_TESTS = {
+    "uniaxial": ("--shape", "cylinder", "--diameter", "0.009", "--height", "0.018"),
+    "triaxial": (
+        *("--shape", "box", "--width", "0.008", "--depth", "0.008", "--height", "0.016"),
+        *("--confinement", "1e6,3e6", "--max-strain", "0.008"),
+    ),
+    "shear": ("--width", "0.016", "--height", "0.008", "--depth", "0.008"),
+    "brazilian": ("--diameter", "0.012", "--depth", "0.008", "--jaw-radius", "0.009"),
+    "scb": ("--diameter", "0.02", "--depth", "0.008"),
+}
+MODELS = ("flexible", "rigid")
+#: The joint that cuts the rectangle, a table as of --joints, and its law.
+JOINT_TABLE = "x1,y1,x2,y2,name\n-0.001,0.004,0.013,0.018,fault\n"
+JOINT_LAW = ("friction=0.3", "normal_stiffness=1e13", "shear_stiffness=3e12", "cohesion=1e6")
+JOINT = [word for rule in JOINT_LAW for word in ("--set", f"joint.fault.{rule}")]
+#: Arguments of `flexpm run`, by the name of the run; {work} is the folder with the files below.
+RUNS = {
+    **{
+        f"{test} {model}": (test, "--model", model, *TESTS[test])
+        for model in MODELS
+        for test in TESTS
+    },
+    "uniaxial inner": ("uniaxial", "--model", "inner", *TESTS["uniaxial"]),
+    "tension jcfpm": ("tension", "--model", "jcfpm", *TESTS["tension"]),
+    "tension cohfrict": ("tension", "--model", "cohfrict", *TESTS["tension"]),
+    "uniaxial joint": ("uniaxial", *TESTS["uniaxial"], "--joints", "{work}/joint.csv", *JOINT),
+    "tension labels": (
+        *("tension", "--specimen", "{work}/labels/grains.json"),
+        *("--material", "augig-table7", "--rate", "1"),
+    ),
+    **{
+        f"{test} {model} 3D": (test, "--model", model, *arguments, *SOLID_PACKED)
+        for model in MODELS
+        for test, arguments in SOLID_TESTS.items()
+    },
+}
+#: Runs of --quick.
+QUICK = (
+    *(f"{test} flexible" for test in TESTS),
+    *("uniaxial rigid", "uniaxial inner", "tension jcfpm", "tension cohfrict"),
 )
-#: Those of --quick.
-QUICK = (*((test, "flexible") for test in TESTS), ("uniaxial", "rigid"), *RUNS[-3:])
+#: Runs with one instruction set: the lanes of their model are repeated by other runs.
+ONCE = {f"{test} {model} 3D" for test in SOLID_TESTS for model in MODELS if test != "uniaxial"}
+#: Specimen of an image whose pixels have the number of their grain.
+LABELS = """
+import numpy as np
+import flexpm
+
+draw = np.random.default_rng(1)
+rows, columns = np.mgrid[:48, :24]
+centres = draw.random((30, 2)) * (48, 24)
+distances = (rows[..., None] - centres[:, 0]) ** 2 + (columns[..., None] - centres[:, 1]) ** 2
+labels = distances.argmin(axis=2)
+flexpm.Specimen.from_labels(labels, pixel=5e-4, thickness=0.08).save("{work}/labels/grains.json")
+"""
+#: Custom rigs: held nodes, a roller, a seated support and a soft machine.
+RIGS = {
+    f"rig {model}{name}": f"""
+import flexpm
+
+material = flexpm.materials.load("{material}")
+built = flexpm.build(flexpm.Specimen.{specimen}, material, model="{model}")
+rig = flexpm.{rig}(built, out="{{folder}}")
+clamp = rig.hold(box={box})
+roller = rig.support({roller})
+head = rig.support({head}, seated=True)
+rig.drive(head, {direction}, against=[clamp, roller], machine=2e8)
+rig.load(flexpm.Loading(kind="waiting", rate=16))
+rig.finish()
+"""
+    for model in MODELS
+    for name, material, specimen, rig, box, roller, head, direction in (
+        (
+            *("", "augig-table7", "rectangle(0.03, 0.01, 0.01, seed=1)", "PartRig"),
+            *("((0, 0), (0.006, 0.01))", "(0.014, 0), 0.003", "(0.026, 0.01), 0.004", "(0, -1)"),
+        ),
+        (
+            *(" 3D", "augig3d-calibrated", "box(0.024, 0.008, 0.008, seed=1)", "SolidPartRig"),
+            *("((0, 0, 0), (0.005, 0.008, 0.008))", "(0.012, 0.004, 0), (0.004, 0.008, 0.004)"),
+            *("(0.021, 0.004, 0.008), (0.004, 0.008, 0.004)", "(0, 0, -1)"),
+        ),
+    )
+}
 STUDY = """[common]
 test = "tension"
 width = 0.012
@@ -71,8 +151,6 @@ from flexpm.cli.main import main
 flexpm._flexpm.use_instruction_set(sys.argv[1])
 sys.exit(main(sys.argv[2:]))
 """
-#: Test and model of the study's runs.
-STUDY_KIND = ("tension", "flexible")
 
 
 def main(arguments: list[str]) -> int:
@@ -95,51 +173,75 @@ def main(arguments: list[str]) -> int:
     if options.quick:
         sets = [_ask(package, "print(flexpm._flexpm.instruction_set())").strip()]
     work = Path(tempfile.mkdtemp(prefix="flexpm-reference-"))
-    runs = QUICK if options.quick else RUNS
-    jobs = [(test, model, name) for name in sets for test, model in runs]
+    if not options.quick:
+        _write_files(package, work)
+    names = QUICK if options.quick else tuple(RUNS)
+    jobs = [(name, one) for one in sets for name in names if one == sets[0] or name not in ONCE]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         made = list(pool.map(lambda job: _run(package, work, *job), jobs))
-    found: dict[str, dict[str, str]] = {}
+        rigs = [] if options.quick else list(RIGS)
+        made_rigs = list(pool.map(lambda name: _rig(package, work, name), rigs))
+    found: dict[str, Path] = {}
     failed = 0
-    for (test, model, name), hashes in zip(jobs, made, strict=True):
-        first = found.setdefault(f"{test} {model}", hashes)
-        if differing := _differing(first, hashes):
-            failed = _fail(f"{test} {model} = other {differing} with {name} than with {sets[0]}")
+    for (name, one), folder in zip(jobs, made, strict=True):
+        first = found.setdefault(name, folder)
+        if differing := _differing(dict(_hashes(first)), dict(_hashes(folder))):
+            failed = _fail(f"{name} = other {differing} with {one} than with {sets[0]}")
+    found |= dict(zip(rigs, made_rigs, strict=True))
     if not options.quick:
         found |= _study(package, work)
-    numbers = _numbers(package, list(found))
+    numbers = _numbers(package, found)
+    hashes = {name: dict(_hashes(folder)) for name, folder in found.items()}
     if failed == 0:
         shutil.rmtree(work)
     print(f"reference: {len(found)} runs, instruction sets {', '.join(sets)}")
     if options.renew:
-        return failed or _renew(numbers, found)
-    return failed or _compare(numbers, found, all_runs=not options.quick)
+        return failed or _renew(numbers, hashes)
+    return failed or _compare(numbers, hashes, all_runs=not options.quick)
 
 
-def _run(
-    package: Path | None, work: Path, test: str, model: str, instruction_set: str
-) -> dict[str, str]:
-    """Hashes of the columns of one run."""
-    folder = work / instruction_set / f"{test}-{model}"
-    command = [PYTHON, "-P", "-c", LAUNCH, instruction_set, "run", test, "--model", model]
-    command += [*TESTS[test], "--quiet", "--out", str(folder)]
-    done = _child(package, command)
-    if done.returncode not in (0, 3):
-        sys.exit(_fail(f"{' '.join(command[4:])} = exit code {done.returncode}: {done.stderr}"))
-    return dict(_hashes(folder))
+def _write_files(package: Path | None, work: Path) -> None:
+    """Write the files that the commands read."""
+    (work / "joint.csv").write_text(JOINT_TABLE, encoding="utf-8")
+    (work / "labels").mkdir()
+    _call(package, LABELS.format(work=work))
 
 
-def _study(package: Path | None, work: Path) -> dict[str, dict[str, str]]:
-    """Hashes of the columns of each run of a study, in the order of its table."""
+def _run(package: Path | None, work: Path, name: str, instruction_set: str) -> Path:
+    """Do a run and return its folder."""
+    folder = work / instruction_set / name.replace(" ", "-")
+    arguments = [word.format(work=work) for word in RUNS[name]]
+    _call(package, LAUNCH, instruction_set, "run", *arguments, "--quiet", "--out", str(folder))
+    return folder
+
+
+def _rig(package: Path | None, work: Path, name: str) -> Path:
+    """Run the script of a rig and return its folder."""
+    folder = work / name.replace(" ", "-")
+    _call(package, RIGS[name].format(folder=folder))
+    return folder
+
+
+def _study(package: Path | None, work: Path) -> dict[str, Path]:
+    """Do the study and return the folder of each run, in the order of its table."""
     plan, folder = work / "study.toml", work / "study"
     plan.write_text(STUDY, encoding="utf-8")
-    command = [PYTHON, "-P", "-m", "flexpm", "study", str(plan), "--out", str(folder), "--quiet"]
-    done = _child(package, command)
-    if done.returncode != 0:
-        sys.exit(_fail(f"study = exit code {done.returncode}: {done.stderr}"))
+    command = ["study", str(plan), "--out", str(folder), "--quiet"]
+    _call(
+        package,
+        "import sys; from flexpm.cli.main import main; sys.exit(main(sys.argv[1:]))",
+        *command,
+    )
     with (folder / "table.csv").open(encoding="utf-8", newline="") as file:
         runs = [next(iter(row.values())) for row in csv.DictReader(file)]
-    return {f"study {i + 1}": dict(_hashes(folder / "runs" / run)) for i, run in enumerate(runs)}
+    return {f"study {i + 1}": folder / "runs" / run for i, run in enumerate(runs)}
+
+
+def _call(package: Path | None, script: str, *arguments: str) -> None:
+    """Run a script of Python; a status other than ``ok`` (exit code 3) is a result, too."""
+    done = _child(package, [PYTHON, "-P", "-c", script, *arguments])
+    if done.returncode not in (0, 3):
+        sys.exit(_fail(f"{arguments or script} = exit code {done.returncode}: {done.stderr}"))
 
 
 def _hashes(folder: Path) -> Iterator[tuple[str, str]]:
@@ -159,13 +261,18 @@ def _canonical(cell: str) -> str:
         return cell
 
 
-def _numbers(package: Path | None, names: list[str]) -> dict[str, int]:
+def _numbers(package: Path | None, found: dict[str, Path]) -> dict[str, int]:
     """Results number of each run."""
-    kinds = [STUDY_KIND if name.startswith("study") else tuple(name.split()) for name in names]
-    script = "from flexpm.materials import load; from flexpm.runs.run_spec import RunSpec\n"
-    script += "runs = ((t, {'model': m}, load(None, m)) for t, m in " + f"{kinds})\n"
-    script += "print(*(RunSpec.from_options(*run).results for run in runs))"
-    return dict(zip(names, map(int, _ask(package, script).split()), strict=True))
+    files = [str(folder / "result.json") for folder in found.values()]
+    script = f"""
+from pathlib import Path
+from flexpm.runs.asked import read_inputs, read_own
+from flexpm.runs.run_spec import results_of
+for file in map(Path, {files}):
+    own = read_own(file)
+    print(results_of((own or read_inputs(file))[0]))
+"""
+    return dict(zip(found, map(int, _ask(package, script).split()), strict=True))
 
 
 def _compare(numbers: dict[str, int], found: dict[str, dict[str, str]], all_runs: bool) -> int:
