@@ -250,7 +250,7 @@ TEST_CASE("Grains that hang on a pressed plate alone are loose in a layer as in 
     }
 }
 
-TEST_CASE("A plate out of balance by a part of its load has that ratio however wide it is, D108")
+TEST_CASE("A plate out of balance by a part of its load has that ratio however wide it is, D103")
 {
     const double part = 0.05;
     const int rows = 4;

@@ -51,7 +51,7 @@ void reset_energy_balance(Assembly& a);
 /// Kinetic energy as if no force acted on the present velocities: 1/2 m v^2 [J].
 double kinetic_of_velocities(const Grains& grains);
 
-/// Largest force component on a free node, on a loaded part per grain (D108), over the mean contact
+/// Largest force component on a free node, on a loaded part per grain (D103), over the mean contact
 /// force [-]; of the last measured step. 1 if a node bears a force and no contact does; else 0.
 double unbalanced_ratio(const Assembly& a);
 

@@ -98,7 +98,7 @@ template <class State, class Add> void for_each_damped_part(const State& s, Add 
 }
 
 /// Largest unbalanced force of a specimen [N]: component on a free node, or on a plate under a load
-/// or a node set that floats, there divided by the number of its grains (deviation D108).
+/// or a node set that floats, there divided by the number of its grains (deviation D103).
 ///
 /// @param grain_of  grain of each facet of the boundary
 template <class State> double largest_unbalanced(const State& s, const std::vector<int>& grain_of)

@@ -23,7 +23,7 @@ Dissipation dissipation(const SolidState& s);
 double damping_power(const SolidState& s, double damping);
 
 /// Ratio of the largest unbalanced force to the mean contact force [-], at the last measured step;
-/// as of the plane (deviation D108).
+/// as of the plane (deviation D103).
 double unbalanced_ratio(const SolidState& s);
 
 /// Cracked points.

@@ -134,7 +134,7 @@ KIND = TestKind(
     solids=("box",),
     solid_sizes={"box": {"width": 0.06, "depth": 0.02, "height": 0.03}},
     models=BLOCK_MODELS,
-    results=dict.fromkeys(BLOCK_MODELS, 3),  # unbalanced_ratio of the jack, D108
+    results=dict.fromkeys(BLOCK_MODELS, 3),  # unbalanced_ratio of the jack, D103
     options=(
         Option(
             "notch",

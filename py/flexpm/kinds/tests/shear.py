@@ -61,7 +61,7 @@ KIND = TestKind(
     solids=("box",),
     solid_sizes={"box": {"width": 0.04, "depth": 0.02, "height": 0.02}},
     models=BLOCK_MODELS,
-    results=dict.fromkeys(BLOCK_MODELS, 5),  # unbalanced_ratio of the lid, D108
+    results=dict.fromkeys(BLOCK_MODELS, 5),  # unbalanced_ratio of the lid, D103
     options=(
         Option("normal_stress", "On the upper half", "Pa", default="1e6"),
         slid.WAY,
