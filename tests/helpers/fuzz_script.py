@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import shutil
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -52,7 +53,10 @@ class Script:
     def __call__(self, calls: list[list[Any]]) -> list[dict[str, Any]]:
         """Make the calls; what each raised, and what the scene then is."""
         self._begin()
-        Path(self._folder.name, "scene.bin").unlink(missing_ok=True)
+        left = Path(self._folder.name, "scene.bin")
+        if left.is_dir():  # of a rig that was left there
+            shutil.rmtree(left)
+        left.unlink(missing_ok=True)
         seen = []
         for name, *arguments in calls:
             error = ""
@@ -268,6 +272,7 @@ class Script:
     def do_gauge(self, name: Any, x: float, y: float) -> None:
         if rig := self._parts():
             rig.gauge(name, self._at(x, y), self._at(y, x))
+            rig.reading(name)
 
     def do_set_nodes(self, first: int, count: int) -> None:
         nodes = self._solver.nodePlaces()[0][max(first, 0) :][:count].tolist()

@@ -73,7 +73,7 @@ def ring_of(name: str, given: object, grain: float) -> FloatArray:
         angles = [2.0 * math.pi * k / chords for k in range(chords)]
         return np.array([(x + radius * math.cos(a), y + radius * math.sin(a)) for a in angles])
     try:
-        (line,) = checked({EXCAVATION + name: given})[EXCAVATION + name]
+        (line,) = checked({EXCAVATION + name: given}, excavations=True)[EXCAVATION + name]
     except (InputError, ValueError, TypeError):
         raise InputError(
             f"excavation {quoted(name)} = {quoted(given)}, must be a polygon, rows x, y, or a "

@@ -149,7 +149,8 @@ def _frame_writer(plan: Plan, spec: RunSpec, restore: Callable[[], None] | None)
     assert plan.folder is not None
     resumed_at = yade.O.iter if restore is not None else None
     checkpoint, memory = plan.checkpoint, None
-    if checkpoint is not None and checkpoint.resumed_at == resumed_at:
+    # else the checkpoint knows the frames of a faster loading, which a slower one replaces
+    if checkpoint is not None and checkpoint.resumed_at == resumed_at is not None:
         memory = checkpoint.told.get(FRAMES)
     frames = FrameWriter(
         *(plan.folder, plan.output.frames, about(spec.to_json()), resumed_at), memory

@@ -282,6 +282,7 @@ def default_name(model: str = "flexible", *, solid: bool = False) -> str:
         model: Name of the model.
         solid: Whether the specimen is 3D.
     """
+    solid = solid and not model.startswith("inner")  # 2D only: a run of a solid rejects it
     return _DEFAULTS[solid][made_for.stand_in(model) != "flexible"]
 
 

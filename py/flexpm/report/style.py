@@ -47,6 +47,8 @@ STYLE = {
 _PAD = 0.08
 #: Width of a title over that of its figure that always fits [-]; most trials to fit one.
 _SHORT, _FITS = 0.6, 4
+#: Lines of a title at most.
+_MOST_LINES = 4
 #: Coordinates beyond this are not drawn.
 _LARGEST = 1e30
 #: Sides of a picture of more than this ratio are not drawn [-].
@@ -91,8 +93,12 @@ def _fit_titles(figure: Figure) -> None:
             share = 1.0 - _overhang(figure, title) / box.width
             lines = title.get_text().split("\n")
             columns = max(int(share * max(map(len, lines))), 1)
-            fitted = [textwrap.fill(line, columns, break_long_words=False) for line in lines]
-            title.set_text("\n".join(fitted))
+            fitted = "\n".join(
+                textwrap.fill(line, columns, break_long_words=False) for line in lines
+            )
+            if fitted.count("\n") >= _MOST_LINES:  # more would leave the axes no room
+                return
+            title.set_text(fitted)
         if not wide:
             return
 

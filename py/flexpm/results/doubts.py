@@ -92,8 +92,8 @@ LARGEST_CRACK_DISTANCE = 0.7
 LARGEST_OVERLAP = 0.02
 #: Line about a pulse that has not passed both sections in one piece.
 NO_PULSE = (
-    "a section still moves at the end of the test: cracks or joints have scattered the pulse, "
-    "which has no speed"
+    "a section still moves at the end of the test, or the upper one has hardly moved: cracks or "
+    "joints have scattered the pulse, which has no speed"
 )
 
 

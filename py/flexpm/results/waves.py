@@ -14,6 +14,9 @@ TIME = "time"
 #: Share of the largest velocity of a section that may be left once a pulse has passed it [-]: else
 #: what it has gone through has scattered it.
 _LARGEST_REST = 0.05
+#: Least displacement of the upper section over that of the lower one [-]: less is what an open
+#: joint lets through.
+_LEAST_PASSED = 0.1
 
 
 def modulus(wave: str, young: float, poisson: float) -> float:
@@ -63,7 +66,8 @@ def centre(time: FloatArray, displacement: FloatArray) -> float:
 def speed(curve: Curve, distance: float) -> float | None:
     """Speed by the travel time of the pulse's centre from one section to the other [m/s].
 
-    None if a section still moves at the end of the record: the pulse has not passed as one.
+    None if a section still moves at the end of the record, or if the upper section has hardly
+    moved: the pulse has not passed as one.
 
     Args:
         curve: With the columns of the displacements and of the time.
@@ -72,6 +76,9 @@ def speed(curve: Curve, distance: float) -> float | None:
     if len(curve) < 3 or not np.all(np.isfinite(curve[DISPLACEMENTS[1]])):
         return None
     if not all(_has_passed(one) for one in velocities(curve)):
+        return None
+    lower, upper = (abs(float(curve[name][-1])) for name in DISPLACEMENTS)
+    if upper < _LEAST_PASSED * lower:
         return None
     near, far = (centre(curve[TIME], curve[name]) for name in DISPLACEMENTS)
     return distance / (far - near) if far > near else None

@@ -257,12 +257,12 @@ def _read(path: Path) -> list[dict[str, str]]:
 
 
 def _results(folder: Path, places: Iterable[str]) -> dict[str, Result]:
-    """Results of finished runs by their folder."""
+    """Results of finished tests by their folder; an elastic solution has no curve and no page."""
     found = {}
     for place in places:
         if Path(place).is_absolute() or ".." in Path(place).parts:
             raise InputError(f"report: run = {place!r}, must lie in {folder}; correct its table")
-        if (folder / place / RESULT).is_file():
+        if all((folder / place / name).is_file() for name in (RESULT, "curve.csv")):
             found[place] = Result.read(folder / place)
     return found
 

@@ -41,7 +41,8 @@ def test_a_loading_tells_its_steps_and_its_part_of_the_peak(command, start, tmp_
 
 
 def test_a_packing_tells_its_steps(tmp_path, capsys):
-    assert cli.main(["specimen", "rectangle", *FLAT, "--out", str(tmp_path)]) == 0
+    size = ["--width", "0.06", "--height", "0.12", "--thickness", "0.01"]
+    assert cli.main(["specimen", "rectangle", *size, "--out", str(tmp_path)]) == 0
     assert any(": packing, " in one for one in told(capsys))
 
 

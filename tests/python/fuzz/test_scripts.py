@@ -294,6 +294,7 @@ class Model:
 
 #: Public calls of rigs that are not drawn: what a run of the command makes of its own.
 NOT_CALLED = {
+    "approach",
     "keep_start",
     "likely_steps",
     "scales",

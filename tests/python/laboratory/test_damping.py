@@ -161,7 +161,8 @@ def test_a_rig_tells_of_gravity_against_damping(square):
 def test_a_confined_run_with_real_masses_settles_damped_and_is_loaded_undamped(square):
     options = {"confinement": 4e6, "dynamic": True, "rate": 2.0, "max_strain": 1e-4}
     found = flexpm.run("biaxial", square, "augig-table7", "rigid", **options)
-    assert found.curve["axial_stress"][0] == pytest.approx(4e6, rel=0.1)
+    # the ends start at once, so that the first row has the front of their wave
+    assert found.curve["axial_stress"][0] == pytest.approx(4e6, rel=0.2)
     assert np.all(np.diff(found.curve["damping_energy"]) == 0.0)
     assert found.curve["axial_stress"][-1] > 5e6
 

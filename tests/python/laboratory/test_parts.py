@@ -106,7 +106,7 @@ def test_parts_are_those_of_their_rig_and_there_once():
         (lambda: rig.drive(pin, down, against=[left, right, left]), "drive: part = support at"),
         (lambda: rig.drive(pin, down, against=[pin]), "drive: part = support at"),
         (lambda: rig.drive([], down), "drive: parts = none, must be at least 1"),
-        (lambda: rig.drive(stranger, down), "drive: part = platen at (0, 0) m of another rig"),
+        (lambda: rig.drive(stranger, down), "drive: part = platen at (0.015, 0) m of another rig"),
         (lambda: rig.drive(pin, down, against=stranger), "drive: part against = platen at"),
         (lambda: rig.drive([pin, 5], down), "drive: part = 5, must be a part"),
         (lambda: rig.drive(pin, down, against=[None]), "drive: part against = None, must be a"),

@@ -80,7 +80,7 @@ def specs(draw) -> RunSpec:
     cohesion = draw(st.floats(1e7, 3e7))
     material = materials.load(None, model).with_set([f"cohesion={cohesion!r}"], model)
     starts = ["", "rest"]
-    if model == "flexible" and test in ("uniaxial", "tension"):
+    if model == "flexible" and test in ("uniaxial", "tension") and not dynamic:
         starts.append("static")
     adapts = grains and not dynamic and test != ELASTIC
     waits = adapts and not model.startswith("inner") and not is_brittle(described(material, model))

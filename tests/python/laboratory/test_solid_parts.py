@@ -275,7 +275,7 @@ def test_it_is_made_again_to_the_same_bits(whole, tmp_path):
     inputs = content(whole)["inputs"]
     assert inputs["repeatable"]
     assert [part["part"] for part in inputs["parts"]] == [*["plate"] * 4, "held nodes"]
-    assert content(whole)["peak_load"] > 400.0
+    assert content(whole)["peak_load"] is None  # its load still rises
     page = (whole / "report.html").read_text()
     assert "Parts" in page
     assert "moment" not in page  # z is a direction, no turn

@@ -59,7 +59,7 @@ def test_a_result_is_shown_with_its_curve_and_its_warnings(tmp_path):
         html = one._repr_html_()
         assert picture_of(html).std() > 0.01
         assert rows_of(html)["status"] == [result.status]
-        assert "thickness = 10, is unusual" in html
+        assert "thickness = 10 m, unusual" in html
 
 
 def test_a_result_without_a_record_is_a_table():

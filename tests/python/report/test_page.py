@@ -307,9 +307,9 @@ def spec_of(arguments: list[str]) -> RunSpec:
     with runs.run.make_context("run", list(arguments)) as context:
         options = dict(context.params)
         test = options.pop("test")
-        return inputs.run_spec(
-            test, options, inputs.material(options), inputs.source(test, options)
-        )
+        source = inputs.source(test, options)
+        chosen = inputs.material(options, source.plain.kind)
+        return inputs.run_spec(test, options, chosen, source)
 
 
 def test_a_specimen_with_a_joint_has_its_parts_from_the_start_and_is_run_again(tmp_path):

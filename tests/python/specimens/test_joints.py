@@ -305,7 +305,7 @@ def test_a_joint_that_bends_to_the_grains_says_so(rectangle, weak, tmp_path):
     low, high = (own.hold(box=((0.0, y), (0.012, y + 0.002))) for y in (0.0, 0.022))
     own.drive([high], (0.0, -1.0), against=[low])
     own.load(flexpm.Loading(rate=20.0))
-    assert own.warnings[0] == result.warnings[0]
+    assert own.warnings[0] in result.warnings
     silent = flexpm.run("uniaxial", straight, **rig)
     assert silent.joint_bend == 0.0
     assert not any("joint_bend" in line for line in silent.warnings)
@@ -381,7 +381,9 @@ def test_joints_that_cannot_be(rectangle, joints, message):
 )
 def test_laws_that_cannot_be(values, message):
     whole = {"normal_stiffness": 1e14, "shear_stiffness": 3e13, "friction": 0.5}
-    given = values if "open" in values or "friction" in values else {**whole, **values}
+    missing = set(values) <= {"normal_stiffness", "shear_stiffness"}
+    alone = missing or "open" in values or "friction" in values
+    given = values if alone else {**whole, **values}
     base = {"tensile_strength": 1e7, "cohesion": 3e7, "friction": 0.4, "softening": "brittle"}
     sets = {"flexible": {"young": 3e10, "poisson": 0.2, "normal_stiffness": 1e14}}
     sets["flexible"]["shear_ratio"] = 0.3

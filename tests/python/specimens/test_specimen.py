@@ -226,7 +226,7 @@ GOOD = {"width": 0.02, "height": 0.03, "thickness": 0.08}
         ({"diameters": 3e-3}, "two numbers"),
         ({"diameters": (2e-3, 0.015)}, "largest diameter"),
         ({"diameters": (9.9e-3, 10e-3)}, "discs = "),
-        ({"width": 20, "height": 40}, "change diameters or dimensions, which are in metres"),
+        ({"width": 20, "height": 40}, "choose larger diameters or a smaller specimen, in m"),
         ({"porosity": 1.0}, "porosity"),
         ({"porosity": -0.1}, "porosity"),
         ({"porosity": math.nan}, "porosity"),

@@ -276,8 +276,8 @@ def test_a_job_asks_for_what_its_inputs_are(tmp_path):
     assert job.arguments[:2] == ("run", "biaxial")
     context = main.command.commands["run"].make_context("run", list(job.arguments[1:]))
     with context:
-        material = inputs.material(context.params)
         source = inputs.source("biaxial", context.params)
+        material = inputs.material(context.params, source.plain.kind)
         assert inputs.run_spec("biaxial", context.params, material, source) == job.spec
     names = {option.name for option in main.command.commands["run"].params}
     inert = {"test", "assignments", "out", "quiet", "threads", "discard_checkpoint"}
