@@ -13,6 +13,7 @@ from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.kinds import toughness
+from flexpm.materials.material import default_name
 from flexpm.materials.mineral import Mineral
 from flexpm.specimens.mineral_map import minerals_of
 from flexpm.specimens.space.notch import notched
@@ -32,7 +33,7 @@ def beam():
 @pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_a_beam_breaks_in_the_middle(beam, model):
-    result = flexpm.run("bending", beam, model=model, rate=4.0)
+    result = flexpm.run("bending", beam, default_name(model), model, rate=4.0)
     assert result.energy_error < 0.02
     curve = result.curve
     area = 2.0 * DEPTH * HEIGHT**2 / (3.0 * SPAN)
@@ -54,7 +55,7 @@ def test_a_beam_breaks_in_the_middle(beam, model):
 @pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_a_crack_runs_up_from_the_notch(beam, model):
-    result = flexpm.run("bending", beam, model=model, rate=16.0, notch=NOTCH)
+    result = flexpm.run("bending", beam, default_name(model), model, rate=16.0, notch=NOTCH)
     depth = result.notch_depth
     assert depth == pytest.approx(NOTCH, abs=0.35 * beam.mean_diameter)
     sizes = {"span": SPAN, "height": HEIGHT, "thickness": DEPTH, "notch": depth}

@@ -12,6 +12,7 @@ import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.materials.material import default_name
 from flexpm.report.emission import emission_table
 
 import yade  # isort: skip  (flexpm tells Python where YADE is)
@@ -113,7 +114,7 @@ def test_a_prism_in_the_middle_of_a_fine_disc_has_the_planes_stresses(diameter, 
 @pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_a_disc_splits_along_the_load(disc, model):
-    result = flexpm.run("brazilian", disc, model=model, rate=4.0)
+    result = flexpm.run("brazilian", disc, default_name(model), model, rate=4.0)
     assert result.energy_error < 0.01
     assert 5e6 < result.peak_stress < 40e6
     assert result.tensile_cracks > 5 * result.shear_cracks

@@ -11,6 +11,7 @@ import pytest
 
 import flexpm
 from flexpm.errors import InputError
+from flexpm.materials.material import default_name
 
 # importing flexpm has told Python where YADE is
 yade = importlib.import_module("yade")
@@ -55,8 +56,8 @@ def test_a_core_under_lateral_control_has_the_same_peak(model):
 @pytest.mark.long
 def test_a_notched_beam_under_control_of_its_mouth():
     beam = flexpm.Specimen.box(0.036, 0.009, 0.009, seed=1)
-    free = flexpm.run("bending", beam, model="rigid", notch=0.003)
-    led = flexpm.run("bending", beam, model="rigid", notch=0.003, control="cmod")
+    free = flexpm.run("bending", beam, default_name("rigid"), "rigid", notch=0.003)
+    led = flexpm.run("bending", beam, default_name("rigid"), "rigid", notch=0.003, control="cmod")
     assert follows(led.curve, "cmod") > 0.9
     assert led.peak_load == pytest.approx(free.peak_load, rel=0.03)
 

@@ -8,6 +8,7 @@ from stopped_runs import same, taken_up
 import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
+from flexpm.materials.material import default_name
 from flexpm.specimens.space.notch import notched
 
 #: Two hundred grains.
@@ -38,7 +39,9 @@ def test_notches_come_from_below_and_from_above(block):
 @pytest.mark.parametrize(("model", "pressure"), [("flexible", 0.0), ("rigid", 10e6)])
 def test_both_bridges_bear_the_load(block, model, pressure):
     asked = {"notch": NOTCH, "distance": DISTANCE, "max_displacement": 1e-4}
-    result = flexpm.run("punch", block, model=model, rate=4.0, confinement=pressure, **asked)
+    result = flexpm.run(
+        "punch", block, default_name(model), model, rate=4.0, confinement=pressure, **asked
+    )
     assert result.energy_error < 0.01
     assert result.notch_depth == pytest.approx(NOTCH, abs=0.4 * block.mean_diameter)
     area = 2.0 * DEPTH * (HEIGHT - 2.0 * result.notch_depth)
@@ -55,7 +58,9 @@ def test_both_bridges_bear_the_load(block, model, pressure):
 def test_a_pressure_of_the_walls_bears_more(block):
     asked = {"notch": NOTCH, "distance": DISTANCE, "max_displacement": 2e-4, "rate": 4.0}
     low, high = (
-        flexpm.run("punch", block, model="rigid", confinement=pressure, **asked).peak_load
+        flexpm.run(
+            "punch", block, default_name("rigid"), "rigid", confinement=pressure, **asked
+        ).peak_load
         for pressure in (1e6, 12e6)
     )
     assert high > 1.5 * low

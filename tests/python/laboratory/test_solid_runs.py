@@ -12,6 +12,7 @@ import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.materials.material import default_name
 from flexpm.models.solids import solver_of
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_state
@@ -132,7 +133,9 @@ def test_boxes_and_both_models_break(test, model):
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_threads_change_no_bit(core, model):
     runs = [
-        flexpm.run("uniaxial", core, model=model, max_strain=8e-4, threads=threads, **FAST)
+        flexpm.run(
+            "uniaxial", core, default_name(model), model, max_strain=8e-4, threads=threads, **FAST
+        )
         for threads in (1, 2)
     ]
     assert same(*runs)

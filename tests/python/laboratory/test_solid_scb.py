@@ -13,6 +13,7 @@ from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.kinds import toughness
+from flexpm.materials.material import default_name
 
 import yade  # isort: skip  (flexpm tells Python where YADE is)
 
@@ -46,7 +47,7 @@ def test_half_a_disc_is_flat_below_and_has_half_its_volume(half, tmp_path):
 @pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_a_crack_runs_up_from_the_notch(half, model):
-    result = flexpm.run("scb", half, model=model, rate=4.0)
+    result = flexpm.run("scb", half, default_name(model), model, rate=4.0)
     assert result.energy_error < 0.02
     depth, top = result.notch_depth, 0.5 * DIAMETER
     assert depth == pytest.approx(NOTCH, abs=0.35 * half.mean_diameter)

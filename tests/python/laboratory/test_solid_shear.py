@@ -11,6 +11,7 @@ import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.materials.material import default_name
 
 import yade  # isort: skip  (flexpm tells Python where YADE is)
 
@@ -27,7 +28,7 @@ def block():
 @pytest.mark.long
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_the_lower_half_slides_below_the_upper_one(block, model):
-    result = flexpm.run("shear", block, model=model, rate=2.0, normal_stress=2e6)
+    result = flexpm.run("shear", block, default_name(model), model, rate=2.0, normal_stress=2e6)
     curve = result.curve
     assert result.energy_error < 0.01
     assert curve["load"] == pytest.approx(AREA * curve["axial_stress"])
@@ -48,7 +49,9 @@ def test_the_lower_half_slides_below_the_upper_one(block, model):
 @pytest.mark.long
 def test_more_pressure_bears_more(block):
     low, high = (
-        flexpm.run("shear", block, model="rigid", rate=4.0, normal_stress=stress).peak_stress
+        flexpm.run(
+            "shear", block, default_name("rigid"), "rigid", rate=4.0, normal_stress=stress
+        ).peak_stress
         for stress in (0.5e6, 8e6)
     )
     assert high > 1.2 * low

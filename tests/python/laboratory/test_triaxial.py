@@ -9,6 +9,7 @@ import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.materials.material import default_name
 from flexpm.report.curves import _caption
 from flexpm.report.tables import test_text
 from flexpm.results.result import Result
@@ -88,7 +89,9 @@ def test_a_mirrored_box_under_exchanged_pressures_is_the_same(box):
 def test_the_strength_rises_with_the_pressure(core, model):
     peaks = []
     for pressure in (0.0, 2e6):
-        result = flexpm.run("triaxial", core, model=model, confinement=pressure, **FAST)
+        result = flexpm.run(
+            "triaxial", core, default_name(model), model, confinement=pressure, **FAST
+        )
         assert result.status in ("ok", "not_quasistatic")
         assert result.energy_error < 0.01
         assert result.confinement == pressure
