@@ -79,7 +79,8 @@ def test_a_script_is_run_with_its_parameters_and_seeds(tmp_path, monkeypatch, ca
         place = tmp_path / "beams" / "runs" / row["key"]
         found = flexpm.Result.read(place)
         assert (found.seed, found.inputs["repeatable"]) == (row["seed"], True)
-        assert found.peak_load == pytest.approx(float(row["peak_load"]))
+        told = row["peak_load"]  # nothing where the load still rises
+        assert found.peak_load == (None if told == "" else pytest.approx(float(told)))
         assert not list(place.glob("checkpoint*"))
     assert (tmp_path / "beams" / "report.html").is_file()
     # what is finished is not run again
