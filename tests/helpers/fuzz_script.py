@@ -21,7 +21,7 @@ NUMBERS = ("damping", "measurePeriod", "checkPeriod", "mirrorPeriod")
 #: What parts tell.
 PART_READINGS = (
     *("force", "work", "place", "displacement", "width", "area", "normal", "contact_angle"),
-    *("angle", "machine_energy", "moment", "nodes", "axes"),
+    *("angle", "machine_energy", "moment", "nodes", "axes", "requested_position"),
 )
 
 #: Depth of solids [m].

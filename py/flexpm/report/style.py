@@ -74,6 +74,8 @@ def save(figure: Figure, path: Path | str) -> None:
     with whole_file(path) as temporary, warnings.catch_warnings():
         # a name may have characters that the font lacks; they are drawn as boxes
         warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)
+        # and it may be longer than any picture
+        warnings.filterwarnings("ignore", "constrained_layout not applied", UserWarning)
         if (engine := figure.get_layout_engine()) is not None:
             engine.set(w_pad=_PAD, h_pad=_PAD)
         _fit_titles(figure)
