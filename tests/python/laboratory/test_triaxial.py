@@ -10,8 +10,8 @@ from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.materials.material import default_name
+from flexpm.report import tables
 from flexpm.report.curves import _caption
-from flexpm.report.tables import test_text
 from flexpm.results.result import Result
 
 yade = pytest.importorskip("yade")  # found once flexpm is imported
@@ -149,7 +149,7 @@ def test_the_command_and_its_repetition(tmp_path, capsys, monkeypatch):
     assert set(read.curve["confinement"]) == {5e6}
     assert "confinement              5.000 and 9.000 MPa" in told
     assert "confinement 5 and 9 MPa" in _caption(read)
-    assert test_text(read).startswith("triaxial under 5 and 9 MPa, ")
+    assert tables.test_text(read).startswith("triaxial under 5 and 9 MPa, ")
     assert "crack initiation" in (tmp_path / "box" / "report.html").read_text()
     assert cli.main(["rerun", "box", "--quiet", "--out", "again", "--no-report"]) in (0, 3)
     assert "the same as in" in capsys.readouterr().out

@@ -94,7 +94,7 @@ def test_a_page_says_what_was_asked_and_what_came_out(ended):
     assert "<td>porosity</td><td>0.1</td><td>default</td>" in text
     assert "flexpm rerun result.json" in text
     assert "10.3390/geotechnics2030026" in text
-    assert "thickness = 10, is unusual" in text
+    assert "thickness = 10 m, unusual" in text
 
 
 def test_the_strain_of_area_names_its_state(ended, tmp_path):
