@@ -111,7 +111,10 @@ def test_a_pair_that_is_a_thousand_times_as_strong_never_cracks(model, tmp_path)
     factors = {"tensile_strength": 1e3, "cohesion": 1e3}
     factors |= {"tensile_fracture_energy": 1e6, "shear_fracture_energy": 1e6}
     material = rock({"pair": ["quartz", "mica"], "factor": factors})
-    result = flexpm.run("uniaxial", specimen, material, model, out=tmp_path, report=False)
+    # the others have broken by then; at far more than that stresses come to these strengths, too
+    result = flexpm.run(
+        "uniaxial", specimen, material, model, max_strain=0.02, out=tmp_path, report=False
+    )
     counts = result.cracks_by_pair
     assert counts and "mica/quartz" not in counts
     for mode in ("tensile", "shear"):

@@ -42,8 +42,11 @@ _SHARE_AFTER_PEAK = 5.0
 LOADINGS = ("constant", "adaptive", "waiting")
 #: Largest part that can be asked for [-]: a smaller fall makes no peak (``measures.PEAK_DROP``).
 LARGEST_STOP_RATIO = 0.9
-#: A fall of the stress counts once this share of the reference strength has been reached [-].
+#: A fall of the stress counts once this share of the lowest strength has been reached [-]: the
+#: specimen may part where it is weakest.
 _LEAST_PEAK = 0.2
+#: Strain of failure beyond which contacts that nothing breaks do not make a default end later [-].
+_LARGEST_FAILURE = 0.02
 #: Tests that rates are looked for in.
 _RATED = (*KINDS.values(), OWN)
 #: A strain [-] or stress [Pa] that no test reaches.
@@ -227,7 +230,8 @@ def schedule(
 
     v = k eps_ref H / T with T the steps in which a wave of the scaled masses crosses the height
     and eps_ref the strain of the lowest strength. The end follows the strength of the contacts that
-    connect the grains: the test does not end when the weakest ones have broken.
+    connect the grains: the test goes on when the weakest ones have broken, as long as the stress
+    does not fall.
 
     Args:
         test: Name of the test, which has a constant of its own.
@@ -246,10 +250,12 @@ def schedule(
     # each pascal of confinement adds at least one to the strength of a frictional contact
     reference = (scales.strength + confinement) / scales.modulus
     crossing_time = scales.crossing_steps * dt
-    slowest_strain = ((scales.lowest_strength or scales.strength) + confinement) / scales.modulus
+    lowest = scales.lowest_strength or scales.strength
+    slowest_strain = (lowest + confinement) / scales.modulus
     velocity = loading.rate * rates.constant * slowest_strain / crossing_time * scales.height
+    likely_failure = min(reference, max(slowest_strain, _LARGEST_FAILURE))
     # under a stress concentration a first point softens long before the specimen fails
-    largest = loading.max_strain or kind.largest_strain * max(reference, scales.failure_strain)
+    largest = loading.max_strain or kind.largest_strain * max(likely_failure, scales.failure_strain)
     steps = largest * scales.height / (velocity * dt)
     if not steps <= _MOST_STEPS:
         raise InputError(
@@ -287,7 +293,7 @@ def schedule(
         reference,
         largest,
         loading.stop_ratio,
-        _LEAST_PEAK * scales.strength,
+        _LEAST_PEAK * lowest,
         math.ceil(steps / slowest),
         math.ceil(min(likely, steps / slowest)),
         control=loading.control,

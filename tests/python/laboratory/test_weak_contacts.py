@@ -81,3 +81,24 @@ def test_a_test_that_ends_before_its_rate_can_be_judged_says_so():
     assert result.status == "no_peak"
     (line,) = [one for one in result.warnings if "to judge the loading rate" in one]
     assert line.startswith("rows while loaded = ")
+
+
+def test_contacts_that_nothing_breaks_end_by_default():
+    """A skeleton of strong pairs: no fall counted before a fifth of its nominal strength, and a
+    specimen that had torn was stretched on without an end.
+    """
+    base = flexpm.materials.load("augig-calibrated-rigid").law("rigid")
+    elastic = ("normal_stiffness", "shear_ratio")
+    strong = {"pair": ["a", "b"], "factor": {"tensile_strength": 1e3, "cohesion": 1e3}}
+    material = Material.from_dict(
+        {
+            **{key: base[key] for key in (*KEYS, *ENERGIES)},
+            "elastic": {"rigid": {key: base[key] for key in elastic}},
+            "mineral": [{"name": name, "fraction": 0.5} for name in "ab"],
+            "interface": [strong],
+        }
+    )
+    specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01, seed=3)
+    result = flexpm.run("tension", specimen, material, "rigid")
+    assert result.ended_by in ("drop", "largest_strain")
+    assert result.curve["axial_strain"][-1] < 0.2
