@@ -126,6 +126,9 @@ def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
     result.grains_across = min([across, *_depths(rig.built)]) / frame.grain
     for name, value in spec.kind.measure(frame, result.curve, result.peak_stress).items():
         setattr(result, name, value)
+    if result.fracture_toughness is not None:
+        front = (frame.middle, frame.bottom + frame.notch_depth)
+        result.measure_first_cracks(front, frame.height - frame.notch_depth)
 
 
 def notch_depth(specimen: Specimen) -> float:

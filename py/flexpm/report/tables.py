@@ -171,10 +171,12 @@ def size_text(result: Result) -> str:
 
 
 def _splitting(result: Result) -> list[tuple[str, str]]:
-    """Stress and place of the first cracks of a disc that is split."""
+    """Stress and place of the first cracks of a disc that is split, or at a notch."""
     if result.first_crack_distance is None:
         return []
-    place = f" at {result.first_crack_distance:.2f} of the radius from the middle"
+    notched = result.fracture_toughness is not None
+    size, origin = ("ligament", "notch") if notched else ("radius", "middle")
+    place = f" at {result.first_crack_distance:.2f} of the {size} from the {origin}"
     return [("stress at the first crack", scaled(result.first_crack_stress, 1e-6, "MPa") + place)]
 
 

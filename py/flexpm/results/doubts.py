@@ -88,6 +88,9 @@ LARGEST_POISSON_CHANGE = 0.05
 #: splits by tension [-]: discs of ten grains across do with up to 0.63, and cracks at plates lie
 #: at 0.77 and above.
 LARGEST_CRACK_DISTANCE = 0.7
+#: The same from the front of a notch, over the ligament [-]: the head lies at 1, a roller of the
+#: half disc at 1.6.
+LARGEST_NOTCH_DISTANCE = 0.5
 #: Grains of a solid that nothing keeps apart lie on each other by more than this [diameters].
 LARGEST_OVERLAP = 0.02
 #: Line about a pulse that has not passed both sections in one piece.
@@ -396,22 +399,33 @@ def of_poissons_ratio(ratio: float | None, elastic: float | None) -> list[str]:
     ]
 
 
-def of_first_cracks(distance: float | None, first: float | None, peak: float | None) -> list[str]:
-    """What first cracks of a split disc that lie far from its middle say about its strength.
+def of_first_cracks(
+    distance: float | None, first: float | None, peak: float | None, *, notched: bool = False
+) -> list[str]:
+    """What first cracks say that lie far from where the formula of the test has them begin.
 
     Args:
-        distance: Median distance of the first cracks from the middle over the radius [-].
+        distance: Median distance of the first cracks from the middle of a split disc over the
+            radius, or from the front of a notch over the ligament [-].
         first: Axial stress at the first crack [Pa].
         peak: Axial stress at the peak [Pa].
+        notched: The specimen has a notch.
     """
-    if distance is None or not distance > LARGEST_CRACK_DISTANCE:
+    largest = LARGEST_NOTCH_DISTANCE if notched else LARGEST_CRACK_DISTANCE
+    if distance is None or not distance > largest:
         return []
     stresses = f"first crack at {1e-6 * (first or 0.0):.4g} MPa"
     if peak is not None:
         stresses += f", peak at {1e-6 * peak:.4g} MPa"
+    if notched:
+        return [
+            f"first_crack_distance = {distance:.2g} of the ligament from the notch, is above "
+            f"{largest:g}: the specimen breaks elsewhere first, and its fracture_toughness is none "
+            f"of the rock ({stresses}); take a deeper notch, smaller grains or a higher cohesion"
+        ]
     return [
         f"first_crack_distance = {distance:.2g} of the radius from the middle, is above "
-        f"{LARGEST_CRACK_DISTANCE:g}: the disc breaks at the plates first, and its stress is no "
+        f"{largest:g}: the disc breaks at the plates first, and its stress is no "
         f"tensile strength ({stresses}); take a higher cohesion, smaller grains or curved jaws"
     ]
 

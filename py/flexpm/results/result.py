@@ -95,8 +95,10 @@ class Result(Shown):
     crack_initiation_stress_volumetric: float | None = None
     crack_damage_stress: float | None = None  #: deviator at the extreme of volumetric strain [Pa]
     null_reasons: Table | None = None  #: why crack thresholds are missing, by their names
-    first_crack_stress: float | None = None  #: axial stress at the first crack of a split disc [Pa]
-    #: median distance of its first cracks from the middle over the radius [-]
+    #: axial stress at the first crack of a split disc or a notched specimen [Pa]
+    first_crack_stress: float | None = None
+    #: median distance of its first cracks from the middle of the disc over the radius, or from the
+    #: front of the notch over the ligament [-]
     first_crack_distance: float | None = None
     peak_load: float | None = None  #: largest load of a test between parts [N]
     notch_depth: float | None = None  #: depth of the notch as it was cut [m]
@@ -165,7 +167,10 @@ class Result(Shown):
         found += doubts.of_cuts(self.joint_cuts or {})
         found += doubts.of_overlap(self.largest_overlap or 0.0)
         found += doubts.of_first_cracks(
-            self.first_crack_distance, self.first_crack_stress, self.peak_stress
+            self.first_crack_distance,
+            self.first_crack_stress,
+            self.peak_stress,
+            notched=self.fracture_toughness is not None,
         )
         found += doubts.of_grains(self.grains_across)
         found += doubts.of_poissons_ratio(self.poissons_ratio, self.elastic_poissons_ratio)
@@ -245,20 +250,21 @@ class Result(Shown):
         self.null_reasons = found.reasons or None
         self.curve = core.with_volume(record, solid=solid)
 
-    def measure_splitting(self, centre: tuple[float, float], radius: float) -> None:
-        """Fill where and at which stress the first cracks of a disc appear.
+    def measure_first_cracks(self, origin: tuple[float, float], length: float) -> None:
+        """Fill where and at which stress the first cracks appear.
 
         Args:
-            centre: Centre of the disc in its section [m].
-            radius: Radius of the disc [m].
+            origin: Where the formula of the test has them begin, in the section [m]: the centre of
+                a disc, the front of a notch.
+            length: Radius of the disc, or ligament [m].
         """
         cracks = [crack for crack in self.cracks if crack.mode in MODES]
         if not cracks:
             return
         _, self.first_crack_stress = measures.crack_onset(self.curve, [cracks[0].step])
         places = [(one.x, one.y if one.z is None else one.z) for one in cracks[:FIRST_CRACKS]]
-        distances = np.linalg.norm(np.subtract(places, centre), axis=1)
-        self.first_crack_distance = float(np.median(distances)) / radius
+        distances = np.linalg.norm(np.subtract(places, origin), axis=1)
+        self.first_crack_distance = float(np.median(distances)) / length
 
     @property
     def start_moduli(self) -> tuple[float | None, float | None]:

@@ -250,6 +250,49 @@ TEST_CASE("Grains that hang on a pressed plate alone are loose in a layer as in 
     }
 }
 
+TEST_CASE("A grain whose spin is given holds what hangs on it in a layer as in its plane, D57")
+{
+    Pair p = loaded_pair(20);
+    cut(p.plane, 0.7 * height, 1e-3);
+    cut(p.layer, 0.7 * height, 1e-3);
+    find_loose(p.plane);
+    const auto& loose = p.plane.grains.loose;
+    const int grain =
+        static_cast<int>(std::find(loose.begin(), loose.end(), 1) - loose.begin());
+    REQUIRE(grain < p.plane.grains.count);
+    p.plane.grains.spin_prescribed[p.plane.grains.slot[grain]] = 1;
+    set_spin(p.layer, same_grains(p.plane, p.layer)[grain], {}, true);
+    for (int look = 0; look < 2; ++look) {
+        find_loose(p.plane);
+        find_loose(p.layer);
+    }
+    const std::vector<int> same = same_grains(p.plane, p.layer);
+    CHECK(loose[grain] == 0);
+    for (int g = 0; g < p.plane.grains.count; ++g)
+        CHECK(p.layer.grains.loose[same[g]] == loose[g]);
+}
+
+TEST_CASE("A soft strip before a plate is in series along and across it, as in the plane")
+{
+    const specimens::Specimen cells = plane_cells();
+    const ContactMaterial contact = specimens::granite_contact();
+    const double strip = 0.3 * contact.normal_stiffness;
+    Assembly plane = rigid_plane(cells, depth, contact);
+    add_side_plates(plane, bottom_side, 1, { 0.0, rough, false, strip });
+    SolidState layer = prisms(cells, depth, contact, true);
+    SolidPatch patch { { 0.0, 0.0, 1.0 }, { -1e-3, -1e-3, -1e-3 },
+        { width + 1e-3, depth + 1e-3, 1e-3 } };
+    patch.friction = rough;
+    patch.strip = strip;
+    add_patch_plate(layer, patch);
+    const double softer = 1.0 / (1.0 + contact.normal_stiffness / strip);
+    for (const Plate& plate : { plane.plates[0], layer.plates[0] }) {
+        CHECK(plate.stiffness == Approx(softer * contact.normal_stiffness));
+        CHECK(plate.shear_stiffness
+            == Approx(softer * contact.shear_ratio * contact.normal_stiffness));
+    }
+}
+
 TEST_CASE("A plate out of balance by a part of its load has that ratio however wide it is, D103")
 {
     const double part = 0.05;

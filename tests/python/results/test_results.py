@@ -509,7 +509,7 @@ def test_first_cracks_far_from_the_middle_of_a_split_disc_are_told(height):
             more = () if height is None else (np.nan, "", y)
             result.cracks.append(made(step, 0.1, *along, 1, 0, 0, *more))
         result.measure(QUASISTATIC)
-        result.measure_splitting(centre, radius)
+        result.measure_first_cracks(centre, radius)
         assert result.first_crack_distance == pytest.approx(share)
         stress = np.interp(steps[0], result.curve["step"], result.curve["axial_stress"])
         assert result.first_crack_stress == pytest.approx(stress)
@@ -517,8 +517,23 @@ def test_first_cracks_far_from_the_middle_of_a_split_disc_are_told(height):
         assert len(lines) == told
         assert all("no tensile strength" in line and "peak at" in line for line in lines)
     empty = result_of(triangular_record(), test="brazilian")
-    empty.measure_splitting(centre, radius)
+    empty.measure_first_cracks(centre, radius)
     assert (empty.first_crack_distance, empty.first_crack_stress) == (None, None)
+
+
+@pytest.mark.parametrize("toughness", [None, 1e6])
+def test_first_cracks_far_from_a_notch_are_told(toughness):
+    front, ligament = (0.0, 0.005), 0.01
+    for share, told in ((0.3, False), (0.6, toughness is not None), (0.8, True)):
+        result = result_of(triangular_record(), test="scb")
+        result.fracture_toughness = toughness
+        result.cracks = [Crack(50, 0.1, 0.0, front[1] + share * ligament, 1, 0, 0)]
+        result.measure(QUASISTATIC)
+        result.measure_first_cracks(front, ligament)
+        assert result.first_crack_distance == pytest.approx(share)
+        lines = [line for line in result.warnings if "first_crack_distance" in line]
+        assert len(lines) == told
+        assert all(("from the notch" in line) == (toughness is not None) for line in lines)
 
 
 def test_a_test_without_a_peak_tells_the_stress_of_its_plateau():

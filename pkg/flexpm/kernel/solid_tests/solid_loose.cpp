@@ -29,6 +29,8 @@ std::vector<std::uint8_t> held_grains(const SolidState& s)
 {
     const Grains& grains = s.grains;
     std::vector<std::uint8_t> held(grains.count, 0);
+    for (int g = 0; g < grains.count; ++g)
+        held[g] = grains.is_rigid(g) && s.bodies[g].spin_held;
     for_each_node(s, [&](int grain, int number) {
         for (int axis = 0; axis < grains.layout.dimension; ++axis)
             if (grains.prescribed[grains.component(grains.node(grain, number), axis)])

@@ -176,7 +176,9 @@ void lay_strip(Plate& plate, double strip)
     check_not_negative("stiffness of a strip", strip, "Pa/m");
     if (strip == 0.0) return;
     plate.strip = strip;
-    plate.stiffness = 1.0 / (1.0 / plate.stiffness + 1.0 / strip);
+    const double in_series = 1.0 / (1.0 / plate.stiffness + 1.0 / strip);
+    plate.shear_stiffness *= in_series / plate.stiffness;
+    plate.stiffness = in_series;
 }
 
 int add_plate(SolidState& s, const Plate& plate)

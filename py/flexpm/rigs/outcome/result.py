@@ -67,7 +67,7 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
     if kind_of(test).splits:
         outline = getattr(built.specimen, "outline", None)
         centre = (outline.x, outline.y) if isinstance(outline, Circle) else (0.0, 0.0)
-        result.measure_splitting(centre, 0.5 * built.specimen.dimensions["diameter"])
+        result.measure_first_cracks(centre, 0.5 * built.specimen.dimensions["diameter"])
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
     if isinstance(snapshot, SolidSnapshot):
