@@ -47,8 +47,6 @@ STYLE = {
 _PAD = 0.08
 #: Width of a title over that of its figure that always fits [-]; most trials to fit one.
 _SHORT, _FITS = 0.6, 4
-#: Lines of a title at most.
-_MOST_LINES = 4
 #: Coordinates beyond this are not drawn.
 _LARGEST = 1e30
 #: Sides of a picture of more than this ratio are not drawn [-].
@@ -98,8 +96,6 @@ def _fit_titles(figure: Figure) -> None:
             fitted = "\n".join(
                 textwrap.fill(line, columns, break_long_words=False) for line in lines
             )
-            if fitted.count("\n") >= _MOST_LINES:  # more would leave the axes no room
-                return
             title.set_text(fitted)
         if not wide:
             return

@@ -147,7 +147,8 @@ def test_the_command_and_its_repetition(tmp_path, capsys, monkeypatch):
     assert read.second_confinement == 9e6
     assert set(read.curve["second_confinement"]) == {9e6}
     assert set(read.curve["confinement"]) == {5e6}
-    assert "confinement              5.000 and 9.000 MPa" in told
+    (line,) = [line for line in told.splitlines() if "confinement" in line]
+    assert line.split() == ["confinement", "5.000", "and", "9.000", "MPa"]
     assert "confinement 5 and 9 MPa" in _caption(read)
     assert tables.test_text(read).startswith("triaxial under 5 and 9 MPa, ")
     assert "crack initiation" in (tmp_path / "box" / "report.html").read_text()
@@ -163,11 +164,16 @@ def test_ends_with_friction_hold_a_core_across(core, model, tmp_path, monkeypatc
         flexpm.run("triaxial", core, end_friction=friction, **asked) for friction in (0.0, 0.3)
     )
     assert smooth.inputs["specimen"] == rough.inputs["specimen"]
-    first = [one.curve["axial_stress"][0] for one in (smooth, rough)]
-    assert first[1] == pytest.approx(first[0], rel=0.03)  # a plate begins at what the pressure was
+    # a plate begins at what the pressure was, the first row some steps later
+    for one in (smooth, rough):
+        line = np.polyfit(one.curve["axial_strain"][:2], one.curve["axial_stress"][:2], 1)
+        assert line[1] == pytest.approx(2e6, rel=0.01)
     assert rough.energy_error < 0.01
     assert 1.0 < rough.curve["axial_stress"][-1] / smooth.curve["axial_stress"][-1] < 1.2
-    waist = [one.curve["lateral_strain"][-1] for one in (smooth, rough)]
+    # over the axial strain: rows end at other steps
+    waist = [
+        one.curve["lateral_strain"][-1] / one.curve["axial_strain"][-1] for one in (smooth, rough)
+    ]
     assert waist[1] == pytest.approx(waist[0], rel=0.05)  # it hardly feels what holds the ends
     assert same(flexpm.run("triaxial", core, threads=2, end_friction=0.3, **asked), rough)
 

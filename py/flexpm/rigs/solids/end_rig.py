@@ -67,6 +67,10 @@ class EndRig(SolidGrains):
                     f"{self.built.specimen.kind}, whose mantle is one side"
                 )
         self._second = second
+        frame = self._recorder.frame
+        # a checkpoint of this stage does not have the record
+        if second is not None and isinstance(frame, wrapper.EndFrame):
+            frame.twoPressures = True
         super().confine(pressure)
 
     @property
@@ -96,9 +100,6 @@ class EndRig(SolidGrains):
             raise InputError(
                 f"confine: pressure = {pressure:g} Pa, must come before the load; the top is driven"
             )
-        frame = self._recorder.frame
-        if self._second is not None and isinstance(frame, wrapper.EndFrame):
-            frame.twoPressures = True
         there = {tuple(one.sides): one for one in self._presses()}
         if not there:
             self._solid.holdBottom(plate=self._friction > 0.0)
