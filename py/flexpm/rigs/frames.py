@@ -132,13 +132,14 @@ class FrameWriter:
 
     def _take_even(self, rig: TestRig, strain: float, stress: float) -> None:
         if not self._spacing:
-            self._begin(rig)
+            self._begin(rig, strain)
         self._write(self._frame(strain, stress, _EVEN), rig.built.snapshot())
         self._thin()
         self._next = strain + self._spacing
 
-    def _begin(self, rig: TestRig) -> None:
+    def _begin(self, rig: TestRig, strain: float) -> None:
         """Choose the spacing at first."""
+        self._next = strain  # a number from here on: it is saved if the first frame is interrupted
         self._spacing = rig.reference_strain / self._wanted
         self._confinement = rig.confinement or 0.0
         self._growing = 1e-3
