@@ -19,7 +19,7 @@ from ..progress import Progress
 from ..results.result import Result
 from ..results.vtu import write_vtu
 from ..rigs.fitting import rig as rig_of
-from ..rigs.frames import FRAMES, FrameWriter, show_frames
+from ..rigs.frames import FRAMES, FrameWriter, LastState, show_frames
 from ..rigs.outcome.folder import lines_in
 from ..rigs.rig import TestRig
 from ..rigs.solids.disc_rig import SolidDiscRig
@@ -194,7 +194,7 @@ def _write_others(folder: Path, result: Result, output: Output, rig: TestRig) ->
     if output.report:
         write_report(folder, result)
     if isinstance(rig.watch, FrameWriter):
-        rig.watch.finish(rig)
+        rig.watch.finish(LastState.of(rig))
         show_frames(folder, rig.watch.frames, result, output.film)
 
 

@@ -50,6 +50,26 @@ class Frame(NamedTuple):
     file: str  #: below the folder of the run
 
 
+class LastState(NamedTuple):
+    """State in which a test has ended, for a frame of it once the scene may be another one."""
+
+    step: int
+    axial_strain: float  #: [-]
+    axial_stress: float  #: [Pa]
+    snapshot: Snapshot | SolidSnapshot | None  #: None: the test has diverged
+
+    @classmethod
+    def of(cls, rig: TestRig, snapshot: Snapshot | SolidSnapshot | None = None) -> LastState:
+        """That of a rig whose scene is there.
+
+        Args:
+            rig: The rig.
+            snapshot: Its present state, if that is known.
+        """
+        state = None if rig.diverged else snapshot or rig.built.snapshot()
+        return cls(yade.O.iter, rig.strain, rig.stress, state)
+
+
 class FrameWriter:
     """Watches a rig and writes frames of it."""
 
@@ -123,12 +143,12 @@ class FrameWriter:
             self._write_peak()
             self._write(self._frame(strain, stress, _PEAK), rig.built.snapshot())
 
-    def finish(self, rig: TestRig) -> None:
-        """Write the last state and that of the peak, if there was one."""
+    def finish(self, last: LastState) -> None:
+        """Write the state of the peak, if there was one, and the last one, unless it diverged."""
         self._write_peak()
-        last = self._frame(rig.strain, rig.stress, _EVEN)
-        if not rig.diverged:
-            self._write(last, rig.built.snapshot())
+        if last.snapshot is not None:
+            frame = self._frame(last.axial_strain, last.axial_stress, _EVEN, last.step)
+            self._write(frame, last.snapshot)
 
     def _take_even(self, rig: TestRig, strain: float, stress: float) -> None:
         if not self._spacing:
@@ -155,8 +175,8 @@ class FrameWriter:
                 (self._folder / one.file).unlink()
         self._list()
 
-    def _frame(self, strain: float, stress: float, kind: str) -> Frame:
-        step = yade.O.iter
+    def _frame(self, strain: float, stress: float, kind: str, step: int | None = None) -> Frame:
+        step = yade.O.iter if step is None else step
         return Frame(step, strain, stress, kind, f"{FOLDER}/frame-{step:010d}.vtu")
 
     def _write_peak(self) -> None:

@@ -16,6 +16,7 @@ import numpy as np
 from yade import EnumClass_TestState as TestState
 from yade import wrapper
 
+from ..arrays import FloatArray
 from ..errors import InputError
 from ..kinds.registry import kind_of
 from ..kinds.test_kind import Rig
@@ -23,7 +24,7 @@ from ..models.grains import Model
 from ..require import nearest, quoted
 from ..results import doubts, measures
 from ..results.record import Curve
-from ..runs.loading_rate import SLOWEST_WAIT, Scales, Schedule
+from ..runs.loading_rate import RISE_TRANSITS, SLOWEST_WAIT, Scales, Schedule
 from ..runs.runner import Runner
 from .readings import Balance, Readings, balance_of, curve_of
 from .rig import BOTTOM, LEFT, RIGHT, TOP, TestRig
@@ -185,6 +186,7 @@ class GrainRig(TestRig):
             recorder.plateauFrom = len(recorder.rows)
         recorder.state, recorder.peak = TestState.running, 0.0
         self._end_servo()
+        before = self._velocity()
         if recorder.loading is None:
             recorder.controlled = plan.control
             self._begin_record()
@@ -196,15 +198,43 @@ class GrainRig(TestRig):
             # one that looks ahead does so from the first row on
             ahead = plan.softening_growth > 0.0 and not plan.control
             factor = 1.0 if self.disc or ahead or real else plan.fastest
-        self._move(plan.velocity if self.tension else -plan.velocity, factor)
+        velocity = plan.velocity if self.tension else -plan.velocity
+        self._move(velocity, factor)
+        if plan.rise_steps:
+            factor = self._rising_factor(plan, before)
+            self._move(velocity, factor)
         if waiting := self.built.engine(wrapper.CrackWaitController):
             waiting.release()
         for kind in (wrapper.LoadingRateController, wrapper.CrackWaitController):
             self.built.remove_engines(self.built.engine(kind))
         servo = self._begin_servo(plan, factor)
-        if plan.fastest > 1.0:
+        if plan.fastest > 1.0 or factor < 1.0:
             self.built.add_engines(last=(self._rate_controller(plan),))
         self.built.add_engines(last=servo)
+
+    def _velocity(self) -> FloatArray:
+        """Velocity of what loads, 0 before the first loading [m/step, or m/s with real masses]."""
+        loading = self._recorder.loading
+        if isinstance(loading, wrapper.EndDisplacementController):
+            return np.array((0.0, loading.velocity, 0.0)) * loading.velocityFactor
+        if isinstance(loading, wrapper.PlateController):
+            return np.array(loading.velocity) * loading.velocityFactor
+        return np.zeros(3)
+
+    def _rising_factor(self, plan: Schedule, before: FloatArray) -> float:
+        """Factor with which ends with real masses begin: that of their present velocity, or less.
+
+        At rest or going back they begin slowly, and their velocity grows over wave transits.
+
+        Args:
+            plan: Its velocity has been set.
+            before: Velocity until now [m/s].
+        """
+        loading = self._recorder.loading
+        assert loading is not None
+        wanted = self._velocity() / loading.velocityFactor
+        part = float(np.dot(before, wanted) / np.dot(wanted, wanted))
+        return float(np.clip(part, SLOWEST_WAIT * plan.fastest, plan.fastest))
 
     def _begin_servo(self, plan: Schedule, factor: float) -> tuple[wrapper.ServoController, ...]:
         """The servo of a plan that asks for one, in the place of what it drives. Deviation D51."""
@@ -252,8 +282,9 @@ class GrainRig(TestRig):
     ) -> wrapper.LoadingRateController | wrapper.CrackWaitController:
         crossing = self.scales().crossing_steps
         if plan.running_shares is None:
+            doubling = RISE_TRANSITS * crossing if plan.fastest == 1.0 else crossing
             return wrapper.LoadingRateController(
-                loading=self._recorder.loading, fastest=plan.fastest, crossingSteps=crossing
+                loading=self._recorder.loading, fastest=plan.fastest, crossingSteps=doubling
             )
         before, after = plan.running_shares
         return wrapper.CrackWaitController(

@@ -255,6 +255,7 @@ class RigReadings(ABC):
             dt=dt,
             solid=self.solid,
             softening=self._softening(),
+            dynamic=self.built.dynamic,
         )
 
     def _softening(self) -> Softening:

@@ -37,7 +37,7 @@ from ..models.sphere_bonds import in_order, tributary_sizes
 from ..models.spheres import SphereModel
 from ..results import measures
 from ..results.record import Curve
-from ..runs.loading_rate import Scales, Schedule
+from ..runs.loading_rate import SLOWEST_WAIT, Scales, Schedule
 from ..runs.runner import Runner
 from ..specimens.space.specimen import SolidSpecimen
 from . import sphere_ends as ends
@@ -77,6 +77,9 @@ class _State:
     state: int = TestState.running
     diverged: bool = False
     work: float = 0.0  #: of the ends [J]
+    speed: float = 0.0  #: of the moving end, away from the other [m/step, or m/s with real masses]
+    factor: float = 1.0  #: on it, while it rises [-]
+    growth: float = 1.0  #: of the factor in a step [-]
     rows: list[list[float]] = field(default_factory=list)  #: the record, as far as it was saved
 
     @property
@@ -213,8 +216,12 @@ class SphereRig(TestRig):
         return self._now.period
 
     def _limit_speed(self, speed: float, velocity: float) -> None:
-        now = float(np.clip(speed, -velocity, velocity))
-        self._ends.move(now if self.tension else -now)
+        now = float(np.clip(speed / self._now.factor, -velocity, velocity))
+        self._move(now if self.tension else -now)
+
+    def _move(self, speed: float) -> None:
+        self._now.speed = speed
+        self._ends.move(self._now.factor * speed)
 
     def _press(self, pressure: float, ramp: int) -> None:
         if self.solid:
@@ -245,7 +252,11 @@ class SphereRig(TestRig):
         outward = plan.velocity if self.tension else -plan.velocity
         if not (self.disc or self.built.dynamic):
             ends.strain_evenly(self.built, outward)
-        self._ends.move(outward)
+        part, now.factor = now.factor * now.speed / outward, 1.0
+        if plan.rise_steps:  # see ``GrainRig``
+            now.factor = float(np.clip(part, SLOWEST_WAIT, 1.0))
+            now.growth = SLOWEST_WAIT ** (-1.0 / plan.rise_steps)
+        self._move(outward)
 
     def _take_hold(self) -> None:
         if self.tension:
@@ -262,6 +273,10 @@ class SphereRig(TestRig):
             self._now.zero = self._strains()
 
     def _step(self) -> None:
+        now = self._now
+        if now.factor < 1.0:
+            now.factor = min(now.growth * now.factor, 1.0)
+            self._move(now.speed)
         yade.O.step()
         if yade.O.iter % self._now.period != 0:
             return
@@ -323,7 +338,7 @@ class SphereRig(TestRig):
             # nobody counts that of the pressure
             boundary_work=now.work if self.confinement is None else math.nan,
             end_mismatch=end_mismatch(*forces),
-            velocity_factor=1.0,
+            velocity_factor=now.factor,
         )
         deviator = stress - confinement
         now.state = int(test_state(deviator, now.peak, axial, now.end, self._has_plateau))

@@ -29,6 +29,12 @@ FASTEST_CONSTANT = 0.04
 WAITING_MODELS = BLOCK_MODELS
 #: Slowest rate of a loading that waits over its fastest [-].
 SLOWEST_WAIT = 0.01
+#: Wave transits in which the velocity of ends with real masses doubles as their loading begins, up
+#: to that of a constant loading. A sudden velocity sends a wave, which nothing damps, through the
+#: specimen; one transit left rigid grains above their quasi-static limit.
+RISE_TRANSITS = 4.0
+#: Wave transits in which that velocity rises from ``SLOWEST_WAIT`` times itself.
+_RISE = -math.log2(SLOWEST_WAIT) * RISE_TRANSITS
 #: Traction of a plane of weak points grows by no more than this part of what it bears while a wave
 #: crosses the specimen, as it begins to soften [-], deviation D58.
 SOFTENING_GROWTH = 0.01
@@ -137,6 +143,8 @@ class Schedule:
     softening_growth: float = 0.0
     #: strain over which a constant deviator ends the test [-]; 0: a plateau does not end it
     plateau_strain: float = 0.0
+    #: steps in which ends with real masses come to their velocity; 0: they have it from the first
+    rise_steps: int = 0
 
 
 def prescribed(velocity: float) -> Schedule:
@@ -225,6 +233,7 @@ def schedule(
     dt: float = 1.0,
     solid: bool = False,
     softening: Softening = BRITTLE,
+    dynamic: bool = False,
 ) -> Schedule:
     """Loading rate and end of a test.
 
@@ -242,6 +251,7 @@ def schedule(
         dt: Time step [s], or 1 with scaled masses.
         solid: The specimen is one of space.
         softening: Softening of its contacts, from which the likely steps follow.
+        dynamic: It has real masses: the velocity rises slowly from the first step on.
 
     Raises:
         InputError: for a test that would never end.
@@ -286,6 +296,7 @@ def schedule(
         # most tests end well before the largest strain: up to that of the reference strength they
         # go at the fastest rate, then about as far at the slowest
         likely = (1.0 + 1.0 / fastest) * reference / largest * steps
+    rise = math.ceil(_RISE * scales.crossing_steps) if dynamic else 0
     return Schedule(
         velocity,
         fastest,
@@ -294,12 +305,13 @@ def schedule(
         largest,
         loading.stop_ratio,
         _LEAST_PEAK * lowest,
-        math.ceil(steps / slowest),
-        math.ceil(min(likely, steps / slowest)),
+        math.ceil(steps / slowest) + rise,
+        math.ceil(min(likely, steps / slowest)) + rise,
         control=loading.control,
         fastest_ends=_fastest_ends(rates, model, loading.rate) if loading.control else 1.0,
         # deviation D57
         fastest_descent=reference / crossing_time * scales.height,
         softening_growth=growth,
         plateau_strain=PLATEAU_STRAIN if confinement > 0.0 and loading.max_strain is None else 0.0,
+        rise_steps=rise,
     )

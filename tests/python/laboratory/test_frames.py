@@ -364,10 +364,59 @@ def test_a_killed_own_test_has_the_frames_of_an_unbroken_one(tmp_path):
     for number in range(len(moments)):
         folder = tmp_path / str(number)
         require_same(folder, whole)
-        found, wanted = frames.read(folder), frames.read(whole)
-        # the two states of the end, its peak and its last one, are not written again
-        assert found == wanted[: len(found)] and len(found) >= len(wanted) - 2
+        assert frames.read(folder) == frames.read(whole)
         files = sorted(file.name for file in (folder / frames.FOLDER).iterdir())
+        assert files == sorted(file.name for file in (whole / frames.FOLDER).iterdir())
         for name in files:
             pair = ((one / frames.FOLDER / name).read_bytes() for one in (folder, whole))
             assert len({*pair}) == 1, name
+
+
+IN_PLANE = """
+made = flexpm.Specimen.rectangle(0.012, 0.012, 0.01, seed=1)
+rig = flexpm.PartRig(flexpm.build(made, model="rigid"), frames=3, out=OUT, report=False)
+top, floor = (rig.platen(side, friction=0.5) for side in (2, 0))
+rig.drive(top, (0.0, -1.0), against=floor)
+rig.load(flexpm.Loading(rate=16.0, kind="waiting", max_strain=2e-4))
+"""
+IN_SPACE = """
+made = flexpm.Specimen.box(0.012, 0.012, 0.012, diameters=(4e-3, 6e-3), seed=1)
+rig = flexpm.SolidPartRig(flexpm.build(made, model="rigid"), frames=3, out=OUT, report=False)
+top, floor = (rig.platen(side, friction=0.5) for side in (2, 0))
+rig.drive(top, (0.0, 0.0, -1.0), against=floor)
+rig.load(flexpm.Loading(rate=16.0, kind="waiting", max_strain=2e-4))
+"""
+#: Kills a script that has loaded its specimen, before it draws.
+KILLED_AT_ITS_END = """
+import os, signal
+from flexpm.rigs.outcome import kept
+kept.draw_pictures = lambda *_: os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def in_function(test: str, *names: str) -> str:
+    """A script whose tests are in a function, and have no rig any more when it ends."""
+    lines = "".join(f"    {line}\n" for line in test.strip().splitlines())
+    calls = "".join(f"yade.O.reset()\ntest({name!r})\n" for name in names)
+    return f"import flexpm, yade\n\ndef test(OUT):\n{lines}\n{calls}"
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("test", [IN_PLANE, IN_SPACE], ids=["plane", "space"])
+def test_rigs_that_are_gone_at_the_end_of_their_script_leave_all_frames(tmp_path, test):
+    """The last test, one before it, and one that was killed before its pictures were drawn."""
+    plain = "import flexpm\n" + test.replace("OUT", "'whole'")
+    assert ended(started(tmp_path, plain)) == (0, "")
+    assert ended(started(tmp_path, in_function(test, "first", "last"))) == (0, "")
+    script = in_function(test, "killed")
+    assert ended(started(tmp_path, KILLED_AT_ITS_END + script))[0] == -signal.SIGKILL
+    assert ended(started(tmp_path, script)) == (0, "")
+    whole = frames.read(tmp_path / "whole")
+    assert whole[-1].step == content(tmp_path / "whole")["steps"]
+    for name in ("first", "last", "killed"):
+        require_same(tmp_path / name, tmp_path / "whole")
+        assert frames.read(tmp_path / name) == whole, name
+        assert (tmp_path / name / frames.STATE).is_file()
+        for one in whole:
+            pair = ((tmp_path / folder / one.file).read_bytes() for folder in (name, "whole"))
+            assert len({*pair}) == 1, one.file

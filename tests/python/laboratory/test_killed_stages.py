@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import signal
 
+import numpy as np
 import pytest
 from killed_scripts import content, drawn, ended, killed, require_same, started
 
+import flexpm
 from flexpm.cli import main as cli
 
 #: A square with a hole that is let go in parts, on a seat and a strip, in a soft machine.
@@ -76,3 +78,27 @@ def test_kills_over_all_stages_and_parts(whole, tmp_path):
     for number, ends in enumerate(killed(tmp_path, SCRIPT, moments)):
         assert ends[-1] == 0, ends
         require_same(tmp_path / str(number), whole)
+
+
+#: With real masses the velocity of the ends is still rising at both kills.
+RISING = """
+import flexpm
+made = flexpm.Specimen.rectangle(0.012, 0.024, 0.01, seed=1)
+
+built = flexpm.build(made, model="rigid", dynamic=True)
+rig = flexpm.rig(built, out="out", checkpoint_interval=INTERVAL)
+rig.load(flexpm.Loading(max_strain=1e-3))
+"""
+
+
+@pytest.mark.long
+def test_a_killed_test_with_real_masses_has_the_same_slow_start(tmp_path):
+    (tmp_path / "whole").mkdir()
+    assert ended(started(tmp_path / "whole", RISING)) == (0, "")
+    whole = tmp_path / "whole" / "out"
+    curve = flexpm.Result.read(whole).curve
+    rows = [np.argmax(curve["velocity_factor"] > part) for part in (0.05, 0.5)]
+    moments = [(signal.SIGTERM, int(curve["step"][row])) for row in rows]
+    (ends,) = killed(tmp_path, RISING, [moments])
+    assert ends == [signal.SIGTERM, signal.SIGTERM, 0]
+    require_same(tmp_path / "0", whole)

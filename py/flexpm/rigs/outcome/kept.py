@@ -38,7 +38,7 @@ from ...runs.run_spec import law_of
 from ...runs.runner import Runner
 from ...runs.written import FILES, about, draw_pictures, write_numbers
 from ...specimens.files import given
-from ..frames import COLLECTION, FRAMES, STATE, TABLE, FrameWriter, show_frames
+from ..frames import COLLECTION, FRAMES, STATE, TABLE, FrameWriter, LastState, show_frames
 from ..rig import TestRig
 from .calls import Calls
 from .folder import inputs_before, inputs_of, lines_in, result_so_far
@@ -106,9 +106,11 @@ class KeptTest:
         self.calls = Calls(self._name, self.runner, earlier, passes=found)
         self._resumed_at = yade.O.iter if found else None
         self._result: Result | None = None  # what is written, and not drawn yet
+        self._last: LastState | None = None  # the state that was written with it
         self._lines: tuple[list[int], list[int]] = ([], [])  # contacts of notches and of joints
         self._ended, self._doing = "", ""
         self._stop: Callable[[], None] = _nothing
+        self._held: TestRig | None = None  # the rig, until the test is closed
         given.save(self._folder, built.specimen)
 
     @classmethod
@@ -143,7 +145,8 @@ class KeptTest:
 
     def attach(self, rig: TestRig) -> None:
         """Watch over a rig that has just been made."""
-        rig.kept, self._rig = self, weakref.ref(rig)
+        # a script may make its rig in a function, and has it no more when it ends
+        rig.kept, self._rig, self._held = self, weakref.ref(rig), rig
         if self._resumed_at is not None:
             rig.stages = [*self._stages]
         self._checkpoint.telling = self._tell
@@ -201,6 +204,7 @@ class KeptTest:
         if self in _open:
             _open.remove(self)
         self.draw()
+        self._held = None
         self._checkpoint.release()
 
     def draw(self) -> None:
@@ -216,8 +220,8 @@ class KeptTest:
             return
         result, self._result = self._result, None
         draw_pictures(self._folder, result, *self._lines)
-        if self._frames is not None and rig is not None and _is_there(rig):
-            self._frames.finish(rig)
+        if self._frames is not None and self._last is not None:
+            self._frames.finish(self._last)
             show_frames(self._folder, self._frames.frames, result, self._output.film)
         if self._output.report:
             write_report(self._folder, result)
@@ -262,6 +266,8 @@ class KeptTest:
         self._lines = lines_in(rig, result.snapshot)
         write_numbers(self._folder, result)
         self._result, self._ended = result, ended
+        if self._frames is not None:
+            self._last = LastState.of(rig, result.snapshot)
 
     def _calls_of_result(self) -> list[Table]:
         """Calls of a test that has left its result here and no checkpoint.
