@@ -51,8 +51,8 @@ LARGEST_STOP_RATIO = 0.9
 #: A fall of the stress counts once this share of the lowest strength has been reached [-]: the
 #: specimen may part where it is weakest.
 _LEAST_PEAK = 0.2
-#: Strain of failure beyond which contacts that nothing breaks do not make a default end later [-].
-_LARGEST_FAILURE = 0.02
+#: Strain to which contacts that nothing breaks may put off the default end [-].
+_STRONG_END = 0.15
 #: Tests that rates are looked for in.
 _RATED = (*KINDS.values(), OWN)
 #: A strain [-] or stress [Pa] that no test reaches.
@@ -263,9 +263,11 @@ def schedule(
     lowest = scales.lowest_strength or scales.strength
     slowest_strain = (lowest + confinement) / scales.modulus
     velocity = loading.rate * rates.constant * slowest_strain / crossing_time * scales.height
-    likely_failure = min(reference, max(slowest_strain, _LARGEST_FAILURE))
     # under a stress concentration a first point softens long before the specimen fails
-    largest = loading.max_strain or kind.largest_strain * max(likely_failure, scales.failure_strain)
+    end = kind.largest_strain * max(reference, scales.failure_strain)
+    if lowest < scales.strength:
+        end = min(end, max(kind.largest_strain * slowest_strain, _STRONG_END))
+    largest = loading.max_strain or end
     steps = largest * scales.height / (velocity * dt)
     if not steps <= _MOST_STEPS:
         raise InputError(
