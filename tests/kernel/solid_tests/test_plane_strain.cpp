@@ -257,8 +257,7 @@ TEST_CASE("A grain whose spin is given holds what hangs on it in a layer as in i
     cut(p.layer, 0.7 * height, 1e-3);
     find_loose(p.plane);
     const auto& loose = p.plane.grains.loose;
-    const int grain =
-        static_cast<int>(std::find(loose.begin(), loose.end(), 1) - loose.begin());
+    const int grain = static_cast<int>(std::find(loose.begin(), loose.end(), 1) - loose.begin());
     REQUIRE(grain < p.plane.grains.count);
     p.plane.grains.spin_prescribed[p.plane.grains.slot[grain]] = 1;
     set_spin(p.layer, same_grains(p.plane, p.layer)[grain], {}, true);
