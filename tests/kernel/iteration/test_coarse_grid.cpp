@@ -91,7 +91,8 @@ TEST_CASE("A grid that nothing holds is as good, and one without nodes moves not
     empty.add_motion({}, nullptr, nullptr);
 }
 
-TEST_CASE("A solid eight times as long takes less than twice the iterations", "[solids]")
+TEST_CASE(
+    "A solid eight times as long takes less than twice the iterations", "[solids][many_steps]")
 {
     const auto iterations = [&](int long_by) {
         const Packing p { Solid::box(4 * side, 4 * side, long_by * side), brick(4, 4, long_by) };

@@ -330,7 +330,7 @@ TEST_CASE("A plate out of balance by a part of its load has that ratio however w
     }
 }
 
-TEST_CASE("Prisms between frictionless planes have plane strain's E and nu", "[solids]")
+TEST_CASE("Prisms between frictionless planes have plane strain's E and nu", "[solids][many_steps]")
 {
     const specimens::Specimen plane = plane_cells();
     AssemblyOptions o =

@@ -71,7 +71,8 @@ TEST_CASE("The linear field of deformable grains is that of their elastic consta
     CHECK(worst < 1e-7 * p.solid.high.z);
 }
 
-TEST_CASE("A solid keeps the modulus of its linear field, and its Poisson's ratio", "[solids]")
+TEST_CASE("A solid keeps the modulus of its linear field, and its Poisson's ratio",
+    "[solids][many_steps]")
 {
     for (const bool rigid : { false, true }) {
         for (const Sense sense : { Sense::compression, Sense::tension }) {
@@ -285,7 +286,7 @@ TEST_CASE("A plate only presses unless it is bonded, and lies on an end once", "
     CHECK_THROWS_WITH(drive_top(soft, 1.0, dt), Catch::Contains("call hold_ends()"));
 }
 
-TEST_CASE("Rough plates hold grains across as far as friction bears it", "[solids]")
+TEST_CASE("Rough plates hold grains across as far as friction bears it", "[solids][many_steps]")
 {
     const Packing p = box(60, 2);
     for (const bool rigid : { false, true }) {

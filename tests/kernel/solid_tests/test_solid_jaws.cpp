@@ -74,7 +74,7 @@ TEST_CASE("A jaw lies before its angle of the mantle, to the hair", "[solids]")
     CHECK(contact_angle(s, wide) == 0.0);
 }
 
-TEST_CASE("Jaws with friction hold a disc and bear what presses it", "[solids]")
+TEST_CASE("Jaws with friction hold a disc and bear what presses it", "[solids][many_steps]")
 {
     const Packing p = disc();
     // between jaws of the disc's own radius facets bear whose normals are not the jaws'

@@ -52,7 +52,8 @@ struct Pressed {
 
 }  // namespace
 
-TEST_CASE("A plate of space in a soft machine bears in series with its spring", "[solids]")
+TEST_CASE(
+    "A plate of space in a soft machine bears in series with its spring", "[solids][many_steps]")
 {
     const Packing p = box(40, 3);
     for (const bool rigid : { false, true }) {

@@ -137,7 +137,8 @@ TEST_CASE("Between two patches a solid has the modulus that it has between its e
     CHECK(scales.crossing_steps > 10.0);
 }
 
-TEST_CASE("A plate under a load follows what it presses on, and the works add up", "[solids]")
+TEST_CASE(
+    "A plate under a load follows what it presses on, and the works add up", "[solids][many_steps]")
 {
     const Packing p = packing(60, 5);
     const double pressure = 2e6;

@@ -90,7 +90,7 @@ TEST_CASE("A solid begins at the stress of its static solution and keeps its mod
     CHECK(energies(r.state).kinetic == Approx(kinetic).epsilon(0.02));
 }
 
-TEST_CASE("A box is pressed and pulled to its peak", "[solids]")
+TEST_CASE("A box is pressed and pulled to its peak", "[solids][many_steps]")
 {
     const Packing p = box(60, 2);
     for (const double sense : { -1.0, 1.0 }) {
