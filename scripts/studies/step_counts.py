@@ -125,10 +125,10 @@ CASES = {
     ),
     "bending 3D": Case(
         *("bending", "box", (_box(0.036, 0.008, 0.008), {"span": 0.032, **QUICK})),
-        (_box(0.030, 0.006, 0.008), {"notch": 0.002, **QUICK}),
+        (_box(0.032, 0.008, 0.010), {"notch": 0.002, **QUICK}),
     ),
     "scb 3D": Case(
-        *("scb", "solid_half_disc", (_disc(0.024, 0.008), QUICK)), (_disc(0.03, 0.007), QUICK)
+        *("scb", "solid_half_disc", (_disc(0.024, 0.008), QUICK)), (_disc(0.03, 0.008), QUICK)
     ),
     "shear 3D": Case(
         *("shear", "box", (_box(0.020, 0.010, 0.012), {})),
@@ -136,11 +136,11 @@ CASES = {
     ),
     "punch 3D": Case(
         *("punch", "box", (_box(0.036, 0.008, 0.020), {"confinement": 2e6, "notch": 0.003})),
-        (_box(0.032, 0.008, 0.018), {"confinement": 5e6, "notch": 0.003}),
+        (_box(0.038, 0.008, 0.022), {"confinement": 5e6, "notch": 0.003}),
     ),
-    "sonic 2D": Case("sonic", "rectangle", (_flat(0.02, 0.08), {}), (_flat(0.02, 0.1), {})),
+    "sonic 2D": Case("sonic", "rectangle", (_flat(0.02, 0.16), {}), (_flat(0.02, 0.2), {})),
     "sonic 3D": Case(
-        *("sonic", "box", (_box(0.008, 0.008, 0.08), {}), (_box(0.009, 0.009, 0.1), {}))
+        *("sonic", "box", (_box(0.008, 0.008, 0.16), {}), (_box(0.009, 0.009, 0.2), {}))
     ),
 }
 #: Seeds of the fitted runs, and those of other packings of the tests that scatter most.
