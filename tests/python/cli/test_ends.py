@@ -366,7 +366,10 @@ def test_a_python_that_is_not_debians_is_named(tmp_path, program, kind):
         ):
             (packages / name).mkdir()
             (packages / name / file).write_text(text + "\nVersion: 9.1.0\n" * (name != "numpy"))
-    surroundings = dict(ENVIRONMENT)
+    # flexpm alone: beside the one that is installed lies all that Debian's Python has
+    (tmp_path / "alone").mkdir()
+    (tmp_path / "alone" / "flexpm").symlink_to(Path(flexpm.__file__).parent)
+    surroundings = ENVIRONMENT | {"PYTHONPATH": str(tmp_path / "alone")}
     if "-c" in program:
         del surroundings["FLEXPM_DEFER"]
     done = subprocess.run(
