@@ -10,9 +10,9 @@ universal-ctags finds (free functions, members and templates; lambdas belong to 
 * names declared for both states: functions of one name, without the prefixes ``solid_``, ``space_``
   and ``plane_``, of which one has ``Assembly`` and another ``SolidState`` among its parameters, or
   is a member of that class;
-* functions of like shape: of each function of 3D with at least three lines, the one of 2D that is
-  most alike. Bodies are compared word by word (difflib), once the prefixes are off and the names
-  of states, points and solvers are the same; from 0.6 on they are alike;
+* functions of like shape: of each function of 3D with at least five lines in all, the one of 2D
+  that is most alike. Bodies are compared word by word (difflib), once the prefixes are off and the
+  names of states, points and solvers are the same; from 0.6 on they are alike;
 * headers that name a twin: a header of one dimension is in the @file text of one of the other.
 
 A function is of 3D if its file or its signature has a word with ``solid`` or ``space``.
@@ -25,6 +25,7 @@ import difflib
 import itertools
 import json
 import re
+import shutil
 import subprocess
 from collections import Counter, defaultdict
 from collections.abc import Iterator
@@ -32,7 +33,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 FOLDERS = ("pkg/flexpm/kernel", "pkg/flexpm/yade")
-LIKE, FEWEST_LINES, FEWEST_WORDS = 0.6, 3, 12
+LIKE, FEWEST_LINES, FEWEST_WORDS = 0.6, 5, 12
 #: Share of common pairs of words from which two bodies are compared [-]: a bound on their ratio.
 WORTH_COMPARING = 0.35
 STATES = {"Assembly": "plane", "SolidState": "space"}
@@ -77,7 +78,11 @@ def functions(root: Path) -> Iterator[Function]:
             texts[path] = (root / path).read_text(encoding="utf-8").splitlines()
         lines = texts[path][tag["line"] : tag["end"]] if "end" in tag else []
         words = [w for line in lines for w in WORD.findall(line.split("//")[0])]
-        words = [SAME.get(w, PREFIX.sub("", w)) for w in words] if len(lines) > FEWEST_LINES else []
+        words = (
+            [SAME.get(w, PREFIX.sub("", w)) for w in words]
+            if len(lines) >= FEWEST_LINES - 1
+            else []
+        )
         name = PREFIX.sub("", tag["name"])
         scope = tag.get("scope", "").rpartition("::")[2]
         yield Function(name, path, tag.get("signature", ""), scope, words)
@@ -137,6 +142,9 @@ def main() -> None:
     parser.add_argument("root", nargs="?", type=Path, default=Path(__file__).resolve().parents[2])
     parser.add_argument("--list", action="store_true", help="name them, too")
     options = parser.parse_args()
+    if shutil.which("ctags") is None:
+        print("twins: ctags = not found, nothing is counted; install the package universal-ctags")
+        return
     found = list(functions(options.root))
     names, like, headers = for_both_states(found), alike(found), twin_headers(options.root)
     of_space = sum(one.of_space and len(one.words) >= FEWEST_WORDS for one in found)

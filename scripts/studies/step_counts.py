@@ -224,7 +224,9 @@ def show(rows: list[dict[str, str]]) -> None:
     for role in ("fitted", "judging"):
         for name, factor in (("announced", 2.0), ("tenth", 1.5)):
             off = {
-                f"{row['case']}, {row['model']}": float(row[name]) / float(row["steps"])
+                f"{row['case']}, {row['model']}, seed {row['seed']}": (
+                    float(row[name]) / float(row["steps"])
+                )
                 for row in rows
                 if row["role"] == role and row[name]
             }

@@ -402,7 +402,7 @@ def of_poissons_ratio(ratio: float | None, elastic: float | None) -> list[str]:
 def of_first_cracks(
     distance: float | None, first: float | None, peak: float | None, *, notched: bool = False
 ) -> list[str]:
-    """What first cracks say that lie far from where the formula of the test has them begin.
+    """Warning of first cracks far from the place where the formula of the test assumes them.
 
     Args:
         distance: Median distance of the first cracks from the middle of a split disc over the

@@ -254,8 +254,8 @@ class Result(Shown):
         """Fill where and at which stress the first cracks appear.
 
         Args:
-            origin: Where the formula of the test has them begin, in the section [m]: the centre of
-                a disc, the front of a notch.
+            origin: Place in the section where the formula of the test assumes them [m]: the centre
+                of a disc, the front of a notch.
             length: Radius of the disc, or ligament [m].
         """
         cracks = [crack for crack in self.cracks if crack.mode in MODES]

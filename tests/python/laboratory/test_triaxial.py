@@ -68,6 +68,16 @@ def test_a_second_confinement_follows_on_the_first(core):
         rig.confine(20e6)
 
 
+def test_a_second_pressure_after_the_load_is_refused_and_adds_no_column(box):
+    rig = confined(box, "rigid", 5e6)
+    rig.load(flexpm.Loading(max_strain=2e-4))
+    columns, stress = [*rig.record.columns], [*rig.record["axial_stress"]]
+    with pytest.raises(InputError, match="must come before the load"):
+        rig.confine(5e6, 9e6)
+    assert [*rig.record.columns] == columns
+    assert [*rig.record["axial_stress"]] == stress
+
+
 @pytest.mark.long
 def test_a_mirrored_box_under_exchanged_pressures_is_the_same(box):
     spheres = np.column_stack([box.spheres[:, 1], box.spheres[:, 0], box.spheres[:, 2:]])

@@ -68,8 +68,10 @@ class EndRig(SolidGrains):
                 )
         self._second = second
         frame = self._recorder.frame
-        # a checkpoint of this stage does not have the record
-        if second is not None and isinstance(frame, wrapper.EndFrame):
+        # Not in _press(), which a resumed stage passes over: its checkpoint has no record yet. One
+        # that has rows keeps its columns.
+        begun = self._recorder.loading is not None
+        if second is not None and not begun and isinstance(frame, wrapper.EndFrame):
             frame.twoPressures = True
         super().confine(pressure)
 
