@@ -66,7 +66,7 @@ def tree(tmp_path: Path) -> Path:
     return tmp_path
 
 
-@pytest.mark.parametrize("check", ["layering.py", "functions.py", "kinds.py"])
+@pytest.mark.parametrize("check", ["layering.py", "kinds.py"])
 def test_this_tree_passes(check: str) -> None:
     code, text = run(check, ROOT)
     assert code == 0, text
@@ -222,29 +222,35 @@ def test_a_crowded_folder_is_a_warning(tree: Path, folder: str, modules: int) ->
     assert found == 0 and ("warning" in output and "15 modules" in output) == (modules == 15)
 
 
-@pytest.mark.parametrize(("lines", "code"), [(25, 0), (26, 1)])
+def test_sizes_are_advice() -> None:
+    code, text = run("functions.py", ROOT)
+    assert code == 0 and text.endswith(" warnings\n")
+
+
+@pytest.mark.parametrize("lines", [25, 26])
 @pytest.mark.parametrize("head", ["void A::action()", "bool L::go(int a,\n\tint b)"])
-def test_length_of_adapter_bodies(tree: Path, head: str, lines: int, code: int) -> None:
+def test_a_long_body_of_an_adapter_is_a_warning(tree: Path, head: str, lines: int) -> None:
     body = "\tif (a) { b(); }\n" * lines
     write(tree / "pkg/flexpm/yade/abi/A.cpp", f"{head}\n{{\n{body}}}\n\nvoid other() {{ }}\n")
-    assert run("functions.py", tree)[0] == code
+    found, output = run("functions.py", tree)
+    assert found == 0 and ("warning" in output and "26 lines" in output) == (lines == 26)
 
 
-@pytest.mark.parametrize(("count", "code"), [(7, 0), (8, 1)])
-def test_number_of_parameters_in_cpp(tree: Path, count: int, code: int) -> None:
+@pytest.mark.parametrize("count", [7, 8])
+def test_many_parameters_in_cpp_are_a_warning(tree: Path, count: int) -> None:
     names = ", ".join(f"const std::map<int, double>& a{i}" for i in range(count))
     call = f"    g({', '.join(f'a{i}' for i in range(9))});\n"
     write(tree / "pkg/flexpm/kernel/low/a.cpp", f"static double f({names})\n{{\n{call}}}\n")
     found, output = run("functions.py", tree)
-    assert found == code and ("f takes 8 parameters" in output) == bool(code)
+    assert found == 0 and ("warning" in output and "f takes 8 " in output) == (count == 8)
 
 
-@pytest.mark.parametrize(("count", "code"), [(9, 0), (10, 1)])
-def test_number_of_parameters_in_python(tree: Path, count: int, code: int) -> None:
+@pytest.mark.parametrize("count", [9, 10])
+def test_many_parameters_in_python_are_a_warning(tree: Path, count: int) -> None:
     names = ", ".join(f"a{i}=1" for i in range(count))
     write(tree / "py/flexpm/low/c.py", f"class C:\n    def f(self, *, {names}):\n        ...\n")
     found, output = run("functions.py", tree)
-    assert found == code and ("f takes 10 parameters" in output) == bool(code)
+    assert found == 0 and ("warning" in output and "f takes 10 " in output) == (count == 10)
 
 
 @pytest.mark.parametrize(
