@@ -140,7 +140,7 @@ def test_flexpm_is_installed_below_any_prefix_and_removed_again(
 
 
 def test_a_package_is_not_compiled_without_its_optimiser(tmp_path: Path) -> None:
-    """PyPI is asked before the compiler, which takes ten minutes, and no folder is configured."""
+    """PyPI is asked before the compiler, which takes minutes, and no folder is configured."""
     surroundings = {
         **os.environ,
         "FLEXPM_BUILD_DIR": str(tmp_path / "build"),
