@@ -19,7 +19,7 @@ project = "flexpm"
 author = "The flexpm developers"
 copyright = author
 release = re.search(r'__version__ = "(.*)"', (PACKAGE / "flexpm" / "_version.py").read_text())[1]
-extensions = ["rooms", "yade_classes", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = ["rooms", "yade_classes", "result_schema", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # docstrings say more than types
 graphviz_output_format = "svg"
@@ -77,18 +77,28 @@ class LoadingRates(Directive):
         """Return a table: test and model, rates, limits of the unbalanced-force ratio."""
         from flexpm.kinds.registry import KINDS
 
-        rows = [["test, model", "k constant", "largest k waiting", "limit constant", "waiting, softening; brittle"]]
+        rows = [
+            [
+                "test, model",
+                "k constant",
+                "largest k waiting",
+                "limit constant",
+                "waiting, softening; brittle",
+            ]
+        ]
         for name, kind in KINDS.items():
             for model, one in kind.rates.items():
                 waits = one.running_share is not None
                 limits = one.waiting_ratios or ()
-                rows.append([
-                    f"{name}, {model}",
-                    f"{one.constant:g}",
-                    f"{one.waiting_constant:g}" if waits else "",
-                    "" if one.quasistatic is None else f"{one.quasistatic:g}",
-                    "; ".join(f"{limit:g}" for limit in limits),
-                ])
+                rows.append(
+                    [
+                        f"{name}, {model}",
+                        f"{one.constant:g}",
+                        f"{one.waiting_constant:g}" if waits else "",
+                        "" if one.quasistatic is None else f"{one.quasistatic:g}",
+                        "; ".join(f"{limit:g}" for limit in limits),
+                    ]
+                )
         group = nodes.tgroup(cols=5)
         group += [nodes.colspec(colwidth=width) for width in (28, 14, 18, 16, 24)]
         head, body = nodes.thead(), nodes.tbody()

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import result_schema_file
 from killed_scripts import content, drawn, ended, killed, require_same, started
 
 import flexpm
@@ -138,12 +139,8 @@ def test_it_is_made_again_to_the_same_bits(whole, tmp_path, capsys):
 
 
 def test_the_result_is_valid(whole):
-    jsonschema = pytest.importorskip("jsonschema", reason="needs python3-jsonschema")
-    schema = json.loads(
-        (Path(__file__).parents[3] / "doc/schema/result.schema.json").read_text(encoding="utf-8")
-    )
     found = json.loads((whole / "result.json").read_text())
-    assert list(jsonschema.Draft202012Validator(schema).iter_errors(found)) == []
+    assert list(result_schema_file.validator().iter_errors(found)) == []
 
 
 @pytest.mark.parametrize(

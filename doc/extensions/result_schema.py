@@ -1,33 +1,31 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make the schema of result.json from the classes whose fields are its keys, or compare it.
-
-    scripts/checks/schema.py [--write]
+"""The schema of result.json, made from the classes whose fields are its keys.
 
 Types are those of the fields, words those of their documentation, units and choices those of the
-tables of materials and options. doc/schema/tables.json holds what no class tells: the content of
-tables within a result. FLEXPM's package must be on PYTHONPATH.
+tables of materials and options. ``result_schema_tables`` adds the tables within a result. The
+directive ``result-schema`` shows the schema on a page, and a build of the site writes
+``result.schema.json`` beside the pages.
 """
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import importlib
 import inspect
 import json
 import re
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from docutils import nodes
+from docutils.parsers.rst import Directive
+from result_schema_tables import TABLES
 from sphinx.ext.napoleon import Config, GoogleDocstring
 from sphinx.pycode import ModuleAnalyzer
 
-ROOT = Path(__file__).resolve().parents[2]
-SCHEMA = ROOT / "doc" / "schema" / "result.schema.json"
-TABLES = ROOT / "doc" / "schema" / "tables.json"
+NAME = "result.schema.json"
 TYPES = {
     **{"int": "integer", "float": "number", "str": "string", "bool": "boolean", "None": "null"},
     **{"Table": "object", "list[Table]": "array"},
@@ -150,7 +148,13 @@ def made() -> dict[str, Any]:
             "interface": table({key: words[key] for key in KEYS}, KEYS),
         },
     }
-    return joined(schema, json.loads(TABLES.read_text(encoding="utf-8")))
+    whole = joined(schema, TABLES)
+    whole["$defs"]["own_inputs"]["properties"]["model"]["enum"] = [*MODELS]
+    whole["$defs"]["loading"]["properties"]["status"]["enum"] = [
+        one for one in STATUSES if one != "unfinished"
+    ]
+    whole["$defs"]["interface"]["required"] = ["pair", *KEYS]
+    return whole
 
 
 def option(of: Sequence[Any]) -> dict[str, object]:
@@ -180,19 +184,26 @@ def joined(one: Any, other: Any) -> Any:
     return both | {key: value for key, value in other.items() if key not in one}
 
 
-def main() -> int:
-    """Entry of the command."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", action="store_true", help="write doc/schema/result.schema.json")
-    text = json.dumps(made(), indent=2, ensure_ascii=False) + "\n"
-    if parser.parse_args().write:
-        SCHEMA.write_text(text, encoding="utf-8")
-    elif SCHEMA.read_text(encoding="utf-8") != text:
-        print(f"schema: {SCHEMA.name} = not that of the classes; run schema.py --write")
-        return 1
-    print("schema: that of the classes")
-    return 0
+def as_json() -> str:
+    """Return the schema as JSON."""
+    return json.dumps(made(), indent=2, ensure_ascii=False) + "\n"
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+class ResultSchema(Directive):
+    """The schema as a listing."""
+
+    def run(self) -> list[nodes.Node]:
+        """Return a block of JSON."""
+        return [nodes.literal_block(as_json(), as_json(), language="json")]
+
+
+def write(app: Any, exception: Exception | None) -> None:
+    """Write the schema beside the pages of a site that has been built."""
+    if exception is None and app.builder.format == "html":
+        (Path(app.outdir) / NAME).write_text(as_json(), encoding="utf-8")
+
+
+def setup(app: Any) -> None:
+    """Register the directive and the file."""
+    app.add_directive("result-schema", ResultSchema)
+    app.connect("build-finished", write)
