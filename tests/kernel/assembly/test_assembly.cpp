@@ -145,7 +145,7 @@ TEST_CASE("grains fill the rectangle and keep their corners", "[assembly]")
             for (const Point& p : cell_polygon(s.cells, g))
                 cell.insert({ p.x, p.y });
             for (int n = 0; n < s.cells.vertices_of(g); ++n) {
-                const Point p = a.grains.position(a.grains.node(g, n));
+                const Point p = a.grains.point_at(a.grains.node(g, n));
                 grain.insert({ p.x, p.y });
             }
             CHECK(cell == grain);
@@ -171,11 +171,11 @@ TEST_CASE("contacts join the same edge of their two grains", "[assembly]")
             const int na = contact_node(a, c, 0, end), nb = contact_node(a, c, 1, end);
             REQUIRE(owned[0].count(na) == 1);
             REQUIRE(owned[1].count(nb) == 1);
-            CHECK(a.grains.position(na).x == a.grains.position(nb).x);
-            CHECK(a.grains.position(na).y == a.grains.position(nb).y);
+            CHECK(a.grains.point_at(na).x == a.grains.point_at(nb).x);
+            CHECK(a.grains.point_at(na).y == a.grains.point_at(nb).y);
         }
-        const Point p0 = a.grains.position(contact_node(a, c, 0, 0));
-        const Point p1 = a.grains.position(contact_node(a, c, 0, 1));
+        const Point p0 = a.grains.point_at(contact_node(a, c, 0, 0));
+        const Point p1 = a.grains.point_at(contact_node(a, c, 0, 1));
         const double length = std::hypot(p1.x - p0.x, p1.y - p0.y);
         double area = 0.0, first = 0.0, second = 0.0;
         for (int p = 0; p < points; ++p) {
@@ -255,10 +255,10 @@ TEST_CASE("every force acts on the right node, and all forces sum to nothing", "
     }
     for (int g = 0; g < a.grains.count; ++g) {
         double x = 0.0, y = 0.0, moment = 0.0;
-        const Point centre = a.grains.position(a.grains.centre(g));
+        const Point centre = a.grains.point_at(a.grains.centre(g));
         for (int k = 0; k < a.grains.nodes_of(g); ++k) {
             const int n = a.grains.node(g, k);
-            const Point p = a.grains.position(n);
+            const Point p = a.grains.point_at(n);
             x += rest[n];
             y += rest[component(n, 1)];
             moment += (p.x - centre.x) * rest[component(n, 1)] - (p.y - centre.y) * rest[n];

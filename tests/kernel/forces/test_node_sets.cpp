@@ -177,7 +177,7 @@ TEST_CASE("Nodes that turn about a point go round it, however far")
     CHECK(a.node_sets[all].angle.z == Approx(angle));
     for (int n : a.node_sets[all].nodes) {
         const Point arm = vector_at(a.grains.reference, n) - pivot;
-        const Point now = a.grains.position(n) - pivot;
+        const Point now = a.grains.point_at(n) - pivot;
         CHECK(now.x == Approx(std::cos(angle) * arm.x - std::sin(angle) * arm.y).margin(1e-12));
         CHECK(now.y == Approx(std::sin(angle) * arm.x + std::cos(angle) * arm.y).margin(1e-12));
     }

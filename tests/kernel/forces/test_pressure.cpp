@@ -38,7 +38,7 @@ Resultant resultant_of_edges(const Assembly& a)
     Resultant r;
     for (int e = 0; e < a.facets.count; ++e) {
         for (int end : { 0, 1 }) {
-            const Point f = edge_force(a, e, end), p = a.grains.position(a.facets.nodes(e)[end]);
+            const Point f = edge_force(a, e, end), p = a.grains.point_at(a.facets.nodes(e)[end]);
             r.x += f.x;
             r.y += f.y;
             r.moment += p.x * f.y - p.y * f.x;
@@ -53,7 +53,7 @@ double area(const Assembly& a)
     double twice = 0.0;
     for (int e = 0; e < a.facets.count; ++e) {
         const auto n = a.facets.nodes(e);
-        const Point p = a.grains.position(n[0]), q = a.grains.position(n[1]);
+        const Point p = a.grains.point_at(n[0]), q = a.grains.point_at(n[1]);
         twice += p.x * q.y - p.y * q.x;
     }
     return 0.5 * twice;

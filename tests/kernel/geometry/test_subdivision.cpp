@@ -142,7 +142,7 @@ TEST_CASE("contacts across an edge of a grain may take its normal", "[inner]")
     const Point pivot = vector_at(a.grains.reference, a.grains.centre(0));
     for (int i = 0; i < 50; ++i) {
         for (int g = 0; g < a.grains.count; ++g) {
-            const Point p = a.grains.position(a.grains.centre(g));
+            const Point p = a.grains.point_at(a.grains.centre(g));
             const double c = std::cos(angle) - 1.0, sn = std::sin(angle);
             const double x = p.x - pivot.x, y = p.y - pivot.y;
             flexpm::set_motion(a.grains, g, { c * x - sn * y, sn * x + c * y }, angle, 1.0);

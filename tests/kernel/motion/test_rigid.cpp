@@ -73,7 +73,7 @@ TEST_CASE("a rigid grain keeps its shape to round-off when it turns", "[rigid]")
         const int i = a.grains.node(0, n);
         const double rx = a.grains.reference[i] - a.grains.reference[c];
         const double ry = a.grains.reference[component(i, 1)] - a.grains.reference[component(c, 1)];
-        const Point p = a.grains.position(i), q = a.grains.position(c);
+        const Point p = a.grains.point_at(i), q = a.grains.point_at(c);
         // a right angle and two half turns: (x, y) becomes (-y, x)
         CHECK(p.x - q.x == Approx(-ry).margin(1e-15));
         CHECK(p.y - q.y == Approx(rx).margin(1e-15));

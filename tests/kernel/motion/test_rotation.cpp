@@ -34,7 +34,7 @@ void turn(Assembly& a, double angle, int steps)
 {
     const Assembly start = a;
     for (int k = 1; k <= steps; ++k) {
-        aim(a, 1.0, [&](int i) { return turned(start.grains.position(i), angle * k / steps); });
+        aim(a, 1.0, [&](int i) { return turned(start.grains.point_at(i), angle * k / steps); });
         run(a, 1);
     }
 }

@@ -149,7 +149,7 @@ TEST_CASE("A set that turns far takes its nodes around its pivot", "[solids]")
     const Quaternion turn = rotation_by(angle * axis);
     for (const int n : s.node_sets[set].nodes) {
         const Vector there = space_vector(s.grains.reference, n);
-        const Vector off = drawn_place(s.grains, n) - pivot - turned(turn, there - pivot);
+        const Vector off = s.grains.position(n) - pivot - turned(turn, there - pivot);
         CHECK(norm(off) < 1e-12 * a);
     }
     CHECK(dot(s.node_sets[set].angle, axis) == Approx(angle).epsilon(1e-12));

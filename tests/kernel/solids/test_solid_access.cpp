@@ -55,7 +55,7 @@ TEST_CASE("Forces of contacts are all that acts on grains, and leave no moment",
             largest = std::max(largest, norm(on.force));
             worst = std::max(worst, norm(on.force - force[g]));
             moment = std::max(moment, norm(on.moment));
-            whole = whole + on.moment + cross(drawn_place(s.grains, s.grains.centre(g)), on.force);
+            whole = whole + on.moment + cross(s.grains.position(s.grains.centre(g)), on.force);
         }
         CHECK(largest > 1.0);
         CHECK(worst < 1e-9 * largest);
@@ -112,7 +112,7 @@ TEST_CASE("A motion is given to rigid grains alone", "[solids]")
     SolidState rigid = moved(true), flexible = moved(false);
     set_motion(rigid, 3, { 1.0, 2.0, 3.0 }, { 0.0, 0.0, 4.0 });
     const int centre = rigid.grains.centre(3), corner = rigid.grains.node(3, 0);
-    const Vector arm = drawn_place(rigid.grains, corner) - drawn_place(rigid.grains, centre);
+    const Vector arm = rigid.grains.position(corner) - rigid.grains.position(centre);
     const Vector expected { 1.0 - 4.0 * arm.y, 2.0 + 4.0 * arm.x, 3.0 };
     CHECK(norm(node_velocity(rigid, 3, corner) - expected) < 1e-12);
     CHECK_THROWS_WITH(set_motion(flexible, 3, {}, {}),

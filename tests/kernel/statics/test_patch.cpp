@@ -127,7 +127,7 @@ TEST_CASE("patch: one grain whose boundary follows a linear field", "[patch]")
     std::vector<Prescribed> boundary;
     for (int k = 0; k < a.grains.group(0).vertices; ++k) {
         const int n = a.grains.node(0, k);
-        const Point p = a.grains.position(n);
+        const Point p = a.grains.point_at(n);
         boundary.push_back({ n, h.xx * p.x + h.xy * p.y });
         boundary.push_back({ component(n, 1), h.yx * p.x + h.yy * p.y });
     }

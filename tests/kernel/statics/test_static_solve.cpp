@@ -53,7 +53,7 @@ TEST_CASE("the stiffness is symmetric and does not resist rigid motions", "[elas
     const std::vector<int> index = dense::components(a);
     Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(k.rows(), 3);
     for (std::size_t i = 0; i < index.size(); i += 2) {
-        const Point p = a.grains.position(index[i]);
+        const Point p = a.grains.point_at(index[i]);
         const Eigen::Index r = static_cast<Eigen::Index>(i);
         rigid(r, 0) = rigid(r + 1, 1) = 0.012;
         rigid(r, 2) = -p.y;

@@ -52,7 +52,7 @@ template <class Target> void aim(Assembly& a, double dt, Target target)
     for (int g = 0; g < a.grains.count; ++g) {
         for (int n = 0; n < a.grains.nodes_of(g); ++n) {
             const int i = a.grains.node(g, n);
-            const Point now = a.grains.position(i), then = target(i);
+            const Point now = a.grains.point_at(i), then = target(i);
             a.grains.velocity[i] = (then.x - now.x) / dt;
             a.grains.velocity[component(i, 1)] = (then.y - now.y) / dt;
         }

@@ -57,7 +57,7 @@ void turn(Assembly& a, double angle, int steps)
         contact_round::update_contacts(a);
         for (int k = 0; k < 10; ++k) {
             aim(a, 1.0, [&](int node) {
-                const Point p = a.grains.position(node);
+                const Point p = a.grains.point_at(node);
                 const bool second = flexpm::grain_node(a.grains, node).grain == 1;
                 if (!second) return p;
                 const double c = std::cos(angle / steps), s = std::sin(angle / steps);
@@ -254,7 +254,7 @@ TEST_CASE("Forces of a crack that has met again are in balance, moments included
         for (int end = 0; end < 2; ++end) {
             const Point force = contact_force(a, c, side, end);
             sum = sum + force;
-            moment += cross(a.grains.position(a.contacts.node(c, side, end)), force);
+            moment += cross(a.grains.point_at(a.contacts.node(c, side, end)), force);
         }
     }
     REQUIRE(norm(force_on_first(a)) > 0.5 * pressing);

@@ -114,8 +114,8 @@ void place_nodes(Assembly& a, const flexpm::Gradient& h, const Motion& motion)
 /// Edge of a grain's side of a contact as it lies now.
 Point present_edge(const Assembly& a, int contact, int side)
 {
-    return a.grains.position(a.contacts.node(contact, side, 1))
-        - a.grains.position(a.contacts.node(contact, side, 0));
+    return a.grains.point_at(a.contacts.node(contact, side, 1))
+        - a.grains.point_at(a.contacts.node(contact, side, 0));
 }
 
 /// Give all points of a contact the tractions across and along its edge that a stress has, whose

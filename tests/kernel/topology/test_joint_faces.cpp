@@ -255,7 +255,7 @@ TEST_CASE("Forces between faces that have slid are in balance, moments included"
             for (int end = 0; end < 2; ++end) {
                 const Point force = contact_force(a, c, side, end);
                 sum = sum + force;
-                moment += cross(a.grains.position(a.contacts.node(c, side, end)), force);
+                moment += cross(a.grains.point_at(a.contacts.node(c, side, end)), force);
             }
         }
         const double scale = pressure * size * specimens::thickness;

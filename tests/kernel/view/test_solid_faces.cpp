@@ -199,7 +199,7 @@ TEST_CASE("The rims of cracks on the surface are the lines between its grains", 
             const int b = s.contacts.node(c, 0, (k + 1) % s.contacts.corners_of(c));
             const bool both = outer[s.grains.scalar_index(a)] && outer[s.grains.scalar_index(b)];
             if (both && s.contacts.group_of(c).at_corners > 0)
-                walls += norm(drawn_place(s.grains, a) - drawn_place(s.grains, b));
+                walls += norm(s.grains.position(a) - s.grains.position(b));
         }
     CHECK(length == Approx(walls).epsilon(1e-12));
 }

@@ -100,17 +100,23 @@ struct Grains {
     }
 
     // a vector of a node, by the node's offset, and the places of its components in the arrays of
-    // nodes
+    // nodes; the third component of a vector is 0 in 2D
     int component(int node, int axis) const { return layout.component(node, axis); }
     int scalar_index(int node) const { return layout.scalar_index(node); }
+    Vector vector(const Array<double>& values, int node) const
+    {
+        return { values[component(node, 0)], values[component(node, 1)],
+            layout.dimension == 3 ? values[component(node, 2)] : 0.0 };
+    }
+    void set_vector(Array<double>& values, int node, Vector v) const
+    {
+        values[component(node, 0)] = v.x;
+        values[component(node, 1)] = v.y;
+        if (layout.dimension == 3) values[component(node, 2)] = v.z;
+    }
     Point vector_at(const Array<double>& values, int node) const
     {
-        return { values[component(node, 0)], values[component(node, 1)] };
-    }
-    void set_vector(Array<double>& values, int node, Point p) const
-    {
-        values[component(node, 0)] = p.x;
-        values[component(node, 1)] = p.y;
+        return in_plane(vector(values, node));
     }
     Point reference_at(int node) const { return vector_at(reference, node); }
     Point displacement_at(int node) const { return vector_at(displacement, node); }
@@ -123,8 +129,18 @@ struct Grains {
         return (1.0 - weight) * vector_at(values, nodes[0]) + weight * vector_at(values, nodes[1]);
     }
 
-    /// Current position of a node [m].
-    Point position(int node) const { return reference_at(node) + displacement_at(node); }
+    /// Present position of a node [m], with displacements that are `factor` times larger.
+    Vector position(int node, double factor = 1.0) const
+    {
+        return vector(reference, node) + factor * vector(displacement, node);
+    }
+    Point point_at(int node, double factor = 1.0) const
+    {
+        return in_plane(position(node, factor));
+    }
+
+    /// Length of a vector [m]: by hypot() in 2D, which may differ from norm() in the last digit.
+    double length(Vector v) const { return layout.dimension == 2 ? norm(in_plane(v)) : norm(v); }
 
     /// Calls visit(name, member) for all members.
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)

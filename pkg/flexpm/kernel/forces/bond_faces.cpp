@@ -53,8 +53,8 @@ BondFaces bond_faces(const Assembly& a, int contact)
     BondFaces faces {};
     for (int side = 0; side < 2; ++side) {
         const auto [from, to] = a.contacts.edge(contact, side);
-        faces.start[side] = a.grains.position(from);
-        faces.along[side] = a.grains.position(to) - faces.start[side];
+        faces.start[side] = a.grains.point_at(from);
+        faces.along[side] = a.grains.point_at(to) - faces.start[side];
     }
     const Point along = faces.along[0] + faces.along[1];
     const double length = norm(along);

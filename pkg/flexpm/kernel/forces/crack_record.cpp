@@ -12,7 +12,7 @@ namespace {
 Point point_position(const Assembly& a, int contact, int point, double dt)
 {
     const auto moved = [&](int node) {
-        return a.grains.position(node) + dt * a.grains.velocity_at(node);
+        return a.grains.point_at(node) + dt * a.grains.velocity_at(node);
     };
     Point sum;
     for (int side = 0; side < 2; ++side) {

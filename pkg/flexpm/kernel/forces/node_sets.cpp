@@ -77,7 +77,7 @@ void drive(Assembly& a, NodeSet& set, double dt)
     for (std::size_t i = 0; i < set.nodes.size(); ++i) {
         const int node = set.nodes[i];
         const Vector old = vector_at(grains.velocity, node), force = reaction_at(a, set, i);
-        const Vector next = next_velocity(set, grains.position(node), old, dt);
+        const Vector next = next_velocity(set, grains.point_at(node), old, dt);
         power += dot(force, next);
         if (next.x == old.x && next.y == old.y && next.z == old.z) continue;
         give_velocity(grains, set, i, next, dt);
@@ -99,7 +99,7 @@ double sum_reactions(const Assembly& a, NodeSet& set)
     for (std::size_t i = 0; i < set.nodes.size(); ++i) {
         const Vector force = reaction_at(a, set, i);
         set.force = set.force + force;
-        set.moment = set.moment + cross(a.grains.position(set.nodes[i]) - set.pivot, force);
+        set.moment = set.moment + cross(a.grains.point_at(set.nodes[i]) - set.pivot, force);
         power += dot(force, vector_at(a.grains.velocity, set.nodes[i]));
     }
     return power;
@@ -192,7 +192,7 @@ int add_node_set(Assembly& a, const std::vector<int>& nodes, bool holds_x, bool 
         }
         set.nodes.push_back(n);
         set.grains.push_back(grain_node(a.grains, n).grain);
-        set.pivot = set.pivot + (1.0 / static_cast<double>(nodes.size())) * a.grains.position(n);
+        set.pivot = set.pivot + (1.0 / static_cast<double>(nodes.size())) * a.grains.point_at(n);
     }
     for (const Plate& plate : a.plates)
         require_apart(a, set, plate);

@@ -144,7 +144,7 @@ double press_facet(Assembly& a, int facet, double dt)
 {
     const auto [n0, n1] = a.facets.nodes(facet);
     const Point v0 = vector_at(a.grains.velocity, n0), v1 = vector_at(a.grains.velocity, n1);
-    const Point way = (a.grains.position(n1) - a.grains.position(n0)) + dt * (v1 - v0);
+    const Point way = (a.grains.point_at(n1) - a.grains.point_at(n0)) + dt * (v1 - v0);
     // what has come loose lies no more in the skin that the pressure acts on, deviation D57
     const double pressure = a.grains.loose[a.facets.grain[facet]] ? 0.0 : a.facets.pressure[facet];
     const Point now = across_facet(way, a.area_of(0.5 * pressure));

@@ -285,11 +285,11 @@ Array<double> loading_field(const Assembly& a)
             continue;
         }
         const int c = grains.centre(g);
-        const Point middle = grains.position(c), velocity = vector_at(field, c);
+        const Point middle = grains.point_at(c), velocity = vector_at(field, c);
         const double spin = spins[grains.slot[g]];
         for (int k = 0; k < grains.nodes_of(g); ++k) {
             const int n = grains.node(g, k);
-            const Point arm = grains.position(n) - middle;
+            const Point arm = grains.point_at(n) - middle;
             set_vector(field, n, velocity + velocity_of_spin(spin, arm));
         }
     }

@@ -158,7 +158,7 @@ void require_resistance(const Assembly& a)
         if (!grains.prescribed[i]) return;
         const int axis = grains.layout.axis_of(i);
         const Vector along { axis == 0 ? 1.0 : 0.0, axis == 0 ? 0.0 : 1.0, 0.0 };
-        const Vector place = grains.position(i - grains.component(0, axis));
+        const Vector place = grains.point_at(i - grains.component(0, axis));
         if (const NodeSet* set = floating_set(a, i))
             support.add_turning(place - set->pivot, along, stiffest, grains.velocity[i]);
         else
@@ -181,7 +181,7 @@ double springs_of(const Assembly& a, const PartGeometry& parts)
             const NodeSet& set = a.node_sets[number];
             for (std::size_t i = 0; i < set.nodes.size(); ++i) {
                 const int g = set.grains[i];
-                const Vector arm = Vector(a.grains.position(set.nodes[i])) - set.pivot;
+                const Vector arm = Vector(a.grains.point_at(set.nodes[i])) - set.pivot;
                 const double lever = parts.turn ? dot(arm, arm) : 1.0;
                 sum += own_law(a, g).normal_stiffness * a.thickness * a.grains.radius[g] * lever;
             }

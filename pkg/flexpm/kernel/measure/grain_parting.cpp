@@ -10,7 +10,7 @@ namespace {
 double parted_by(const Grains& grains, GrainPair pair)
 {
     const int a = grains.centre(pair[0]), b = grains.centre(pair[1]);
-    return norm(grains.position(b) - grains.position(a))
+    return norm(grains.point_at(b) - grains.point_at(a))
         - norm(grains.reference_at(b) - grains.reference_at(a));
 }
 

@@ -51,10 +51,10 @@ void add_triangles(const Grains& grains, int grain, Virial& total)
 /// Forces on a rigid grain, which its shape carries from node to node.
 void add_rigid(const Assembly& a, int grain, Virial& total)
 {
-    const Point centre = a.grains.position(a.grains.centre(grain));
+    const Point centre = a.grains.point_at(a.grains.centre(grain));
     for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
         const int node = a.grains.node(grain, n);
-        total.add(a.grains.force_at(node), a.grains.position(node) - centre);
+        total.add(a.grains.force_at(node), a.grains.point_at(node) - centre);
     }
     total.volume += a.volume_of(cell_section(a.grains, grain).area);
 }
@@ -68,7 +68,7 @@ void add_contacts(const Assembly& a, Virial& total)
         for (int side = 0; side < 2; ++side) {
             for (int corner = 0; corner < contacts.corners_of(c); ++corner) {
                 total.add(Point {} - contacts.force(c, side, corner),
-                    a.grains.position(contacts.node(c, side, corner)));
+                    a.grains.point_at(contacts.node(c, side, corner)));
             }
         }
         for (int p = 0; p < contacts.points_of(c); ++p) {
@@ -94,7 +94,7 @@ template <class Visit> void for_each_net_force(const Grains& grains, Visit visit
     const auto free = [&](Point force, int node) {
         if (grains.prescribed[grains.component(node, 0)]) force.x = 0.0;
         if (grains.prescribed[grains.component(node, 1)]) force.y = 0.0;
-        visit(force, grains.position(node));
+        visit(force, grains.point_at(node));
     };
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;

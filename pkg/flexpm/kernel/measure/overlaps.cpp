@@ -18,7 +18,7 @@ Polygon outline_of(const Grains& grains, int grain)
 {
     Polygon corners;
     for (int k = 0; k < grains.vertices_of(grain); ++k)
-        corners.push_back(grains.position(grains.node(grain, k)));
+        corners.push_back(grains.point_at(grains.node(grain, k)));
     return corners;
 }
 

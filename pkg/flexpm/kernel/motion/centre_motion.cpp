@@ -64,7 +64,7 @@ void find_centre_motion(const Grains& grains, int block, CentreMotion& motion)
 {
     const int first = centres_of(grains, block);
     for (int l = 0; l < lanes; ++l) {
-        const Point p = grains.position(first + l), v = vector_at(grains.velocity, first + l);
+        const Point p = grains.point_at(first + l), v = vector_at(grains.velocity, first + l);
         motion.x[l] = p.x;
         motion.y[l] = p.y;
         motion.vx[l] = v.x;

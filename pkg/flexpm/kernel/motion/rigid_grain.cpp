@@ -82,12 +82,12 @@ PolygonSection cell_section(const Grains& grains, int grain)
 Resultant resultant_on(const Grains& grains, int grain)
 {
     Resultant sum = { { 0.0, 0.0 }, 0.0 };
-    const Point c = grains.position(grains.centre(grain));
+    const Point c = grains.point_at(grains.centre(grain));
     for (int n = 0; n < grains.nodes_of(grain); ++n) {
         const int node = grains.node(grain, n);
         const Point f = vector_at(grains.force, node);
         sum.force = sum.force + f;
-        sum.moment += cross(grains.position(node) - c, f);
+        sum.moment += cross(grains.point_at(node) - c, f);
     }
     return sum;
 }

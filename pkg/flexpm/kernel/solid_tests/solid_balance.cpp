@@ -56,10 +56,10 @@ void add_tetrahedra(const SolidState& s, int grain, Virial& total)
             total.volume += t.volume;
             return;
         }
-        const Vector first = drawn_place(s.grains, n[0]);
+        const Vector first = s.grains.position(n[0]);
         const double volume =
-            triple(drawn_place(s.grains, n[1]) - first, drawn_place(s.grains, n[2]) - first,
-                drawn_place(s.grains, n[3]) - first)
+            triple(s.grains.position(n[1]) - first, s.grains.position(n[2]) - first,
+                s.grains.position(n[3]) - first)
             / 6.0;
         const auto way = [&](int k) { return space_vector(s.grains.displacement, n[k]); };
         total.add(cauchy_stress(t, c, way(0), way(1), way(2), way(3)), volume);
@@ -69,10 +69,10 @@ void add_tetrahedra(const SolidState& s, int grain, Virial& total)
 /// Forces on a rigid grain, which its shape carries from node to node.
 void add_rigid(const SolidState& s, int grain, Virial& total)
 {
-    const Vector centre = drawn_place(s.grains, s.grains.centre(grain));
+    const Vector centre = s.grains.position(s.grains.centre(grain));
     for (int n = 0; n < s.grains.vertices_of(grain); ++n) {
         const int node = s.grains.node(grain, n);
-        total.add(space_vector(s.grains.force, node), drawn_place(s.grains, node) - centre);
+        total.add(space_vector(s.grains.force, node), s.grains.position(node) - centre);
     }
 }
 
@@ -88,8 +88,8 @@ void add_contacts(const SolidState& s, Virial& total)
             const Vector force = forces[p];
             for (int k = 0; k < c.corners_of(contact); ++k)
                 total.add(c.share(contact, p, k) * force,
-                    drawn_place(s.grains, c.node(contact, 0, k))
-                        - drawn_place(s.grains, c.node(contact, 1, k)));
+                    s.grains.position(c.node(contact, 0, k))
+                        - s.grains.position(c.node(contact, 1, k)));
             total.volume += c.area(contact, p) * std::min(places[p].opening, 0.0);
         }
     }
@@ -117,7 +117,7 @@ std::vector<NetForce> net_forces(const SolidState& s)
         const auto held = [&](int axis) { return grains.prescribed[grains.component(node, axis)]; };
         found.push_back(
             { { held(0) ? 0.0 : force.x, held(1) ? 0.0 : force.y, held(2) ? 0.0 : force.z },
-                drawn_place(s.grains, node) });
+                s.grains.position(node) });
     };
     for (int g = 0; g < grains.count; ++g) {
         if (!grains.is_rigid(g)) {

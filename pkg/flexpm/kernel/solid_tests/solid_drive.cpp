@@ -157,7 +157,7 @@ Array<double> loading_field(const SolidState& s)
         const Vector velocity = space_vector(field, centre), spin = spin_in(s.loading.grains, g);
         for (int n = 0; n < grains.vertices_of(g); ++n) {
             const int node = grains.node(g, n);
-            const Vector arm = drawn_place(grains, node) - drawn_place(grains, centre);
+            const Vector arm = grains.position(node) - grains.position(centre);
             set_space_vector(field, node, velocity + cross(spin, arm));
         }
     }

@@ -14,11 +14,6 @@ namespace flexpm {
 
 namespace {
 
-Vector place(const SolidState& s, int node)
-{
-    return space_vector(s.grains.reference, node) + space_vector(s.grains.displacement, node);
-}
-
 /// A grain where it is now: its corners, and planes of its outer triangles.
 struct Body {
     std::vector<Vector> corners;
@@ -31,15 +26,15 @@ struct Body {
 Body body_of(const SolidState& s, int grain)
 {
     Body b;
-    b.centre = place(s, s.grains.centre(grain));
+    b.centre = s.grains.position(s.grains.centre(grain));
     for (int n = 0; n < s.grains.vertices_of(grain); ++n) {
-        b.corners.push_back(place(s, s.grains.node(grain, n)));
+        b.corners.push_back(s.grains.position(s.grains.node(grain, n)));
         b.radius = std::max(b.radius, norm(b.corners.back() - b.centre));
     }
     for_each_tetrahedron(
         s, s.grains.block_of(grain), [&](const TetrahedronShape&, std::array<int, 4> nodes) {
-            const Vector first = place(s, nodes[1]);
-            const Vector twice = cross(place(s, nodes[2]) - first, place(s, nodes[3]) - first);
+            const Vector first = s.grains.position(nodes[1]);
+            const Vector twice = cross(s.grains.position(nodes[2]) - first, s.grains.position(nodes[3]) - first);
             const double size = norm(twice);
             if (!(size > 0.0)) return;
             b.normals.push_back((1.0 / size) * twice);

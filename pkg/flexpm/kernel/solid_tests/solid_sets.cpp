@@ -73,7 +73,7 @@ void sum_reactions(const SolidState& s, NodeSet& set)
     for (std::size_t i = 0; i < set.nodes.size(); ++i) {
         const Vector force = reaction_at(s, set, i);
         set.force = set.force + force;
-        set.moment = set.moment + cross(drawn_place(s.grains, set.nodes[i]) - set.pivot, force);
+        set.moment = set.moment + cross(s.grains.position(set.nodes[i]) - set.pivot, force);
     }
 }
 
@@ -106,7 +106,7 @@ void lead(SolidState& s, const NodeSet& set, double dt)
     for (std::size_t i = 0; i < set.nodes.size(); ++i) {
         const int node = set.nodes[i];
         const Vector old = space_vector(grains.velocity, node);
-        const Vector along = velocity_at(set, drawn_place(grains, node), dt);
+        const Vector along = velocity_at(set, grains.position(node), dt);
         const Vector next = old + held_part(set, along - old);
         set_space_vector(grains.velocity, node, next);
         s.ledger.prescribed_work[2 * grains.block_of(set.grains[i]) + 1] +=
@@ -169,7 +169,7 @@ int add_node_set(SolidState& s, const std::vector<int>& nodes, std::array<bool, 
         set.nodes.push_back(n);
         set.grains.push_back(found->second);
         set.pivot =
-            set.pivot + (1.0 / static_cast<double>(nodes.size())) * drawn_place(s.grains, n);
+            set.pivot + (1.0 / static_cast<double>(nodes.size())) * s.grains.position(n);
     }
     for (const Plate& plate : s.plates)
         require_apart(s, set, plate);

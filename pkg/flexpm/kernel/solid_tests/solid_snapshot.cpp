@@ -32,7 +32,7 @@ void add_grain(const SolidState& s, int grain, SolidSnapshot& to)
     const Grains& grains = s.grains;
     for (int n = 0; n < grains.nodes_of(grain); ++n) {
         const int node = grains.node(grain, n);
-        push(to.positions, drawn_place(grains, node));
+        push(to.positions, grains.position(node));
         push(to.reference, space_vector(grains.reference, node));
         push(to.velocities, node_velocity(s, grain, node));
         push(to.forces, space_vector(grains.force, node));
@@ -49,7 +49,7 @@ void add_grain(const SolidState& s, int grain, SolidSnapshot& to)
     for (std::size_t t = first; grains.is_rigid(grain) && t < to.tetrahedra.size() / 4; ++t)
         push(to.tetrahedron_stress, mean.stress);
     push(to.grain_stress, mean.stress);
-    push(to.centres, drawn_place(grains, grains.centre(grain)));
+    push(to.centres, grains.position(grains.centre(grain)));
     to.volumes.push_back(mean.volume);
     if (grains.is_rigid(grain)) push(to.spins, s.bodies[grain].spin);
 }

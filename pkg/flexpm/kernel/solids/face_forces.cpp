@@ -259,9 +259,7 @@ Vector point_position(const SolidState& s, int contact, int point)
     for (int side = 0; side < 2; ++side) {
         for (int k = 0; k < s.contacts.corners_of(contact); ++k) {
             const int node = s.contacts.node(contact, side, k);
-            const Vector place =
-                space_vector(s.grains.reference, node) + space_vector(s.grains.displacement, node);
-            sum = sum + 0.5 * s.contacts.share(contact, point, k) * place;
+            sum = sum + 0.5 * s.contacts.share(contact, point, k) * s.grains.position(node);
         }
     }
     return sum;

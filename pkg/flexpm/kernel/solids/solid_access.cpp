@@ -5,18 +5,13 @@
 
 namespace flexpm {
 
-Vector drawn_place(const Grains& grains, int node, double factor)
-{
-    return space_vector(grains.reference, node) + factor * space_vector(grains.displacement, node);
-}
-
 std::vector<Vector> middle_face(const SolidState& s, int contact, double factor)
 {
     std::vector<Vector> middle;
     for (int k = 0; k < s.contacts.corners_of(contact); ++k)
         middle.push_back(0.5
-            * (drawn_place(s.grains, s.contacts.node(contact, 0, k), factor)
-                + drawn_place(s.grains, s.contacts.node(contact, 1, k), factor)));
+            * (s.grains.position(s.contacts.node(contact, 0, k), factor)
+                + s.grains.position(s.contacts.node(contact, 1, k), factor)));
     return middle;
 }
 
@@ -146,7 +141,7 @@ SpaceResultant resultant_on(const SolidState& s, int grain)
 {
     const Grains& grains = s.grains;
     const int centre = grains.centre(grain);
-    const Vector middle = drawn_place(grains, centre);
+    const Vector middle = grains.position(centre);
     SpaceResultant sum;
     for (int n = 0; n < grains.nodes_of(grain); ++n) {
         const int node = grains.node(grain, n);
@@ -154,7 +149,7 @@ SpaceResultant resultant_on(const SolidState& s, int grain)
         if (node == centre && grains.is_rigid(grain)) continue;
         const Vector force = space_vector(grains.force, node);
         sum.force = sum.force + force;
-        sum.moment = sum.moment + cross(drawn_place(grains, node) - middle, force);
+        sum.moment = sum.moment + cross(grains.position(node) - middle, force);
     }
     return sum;
 }
@@ -164,7 +159,7 @@ Vector node_velocity(const SolidState& s, int grain, int node)
     if (s.bodies.empty()) return space_vector(s.grains.velocity, node);
     const int centre = s.grains.centre(grain);
     return space_vector(s.grains.velocity, centre)
-        + cross(s.bodies[grain].spin, drawn_place(s.grains, node) - drawn_place(s.grains, centre));
+        + cross(s.bodies[grain].spin, s.grains.position(node) - s.grains.position(centre));
 }
 
 SpaceTensor sum_of(const SpaceTensor& a, double factor, const SpaceTensor& b)
@@ -176,10 +171,10 @@ SpaceTensor sum_of(const SpaceTensor& a, double factor, const SpaceTensor& b)
 SpaceTensor stress_by_forces(const SolidState& s, int grain, double volume)
 {
     SpaceTensor total {};
-    const Vector centre = drawn_place(s.grains, s.grains.centre(grain));
+    const Vector centre = s.grains.position(s.grains.centre(grain));
     for (int n = 0; n < s.grains.vertices_of(grain); ++n) {
         const int node = s.grains.node(grain, n);
-        const Vector a = drawn_place(s.grains, node) - centre;
+        const Vector a = s.grains.position(node) - centre;
         const Vector b = space_vector(s.grains.force, node);
         total = sum_of(total, 1.0 / volume,
             { a.x * b.x, a.y * b.y, a.z * b.z, 0.5 * (a.y * b.z + a.z * b.y),

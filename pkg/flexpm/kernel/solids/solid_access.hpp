@@ -18,10 +18,7 @@ inline const LawParameters& own_law(const SolidState& s, int grain)
     return s.contacts.laws[s.grains.law_index(grain, grain)];
 }
 
-/// Where a node is drawn if displacements are drawn `factor` times larger [m].
-Vector drawn_place(const Grains& grains, int node, double factor = 1.0);
-
-/// Corners of a contact's middle face, likewise.
+/// Corners of a contact's middle face, with displacements that are `factor` times larger [m].
 std::vector<Vector> middle_face(const SolidState& s, int contact, double factor = 1.0);
 
 /// Unit normal of a polygon, from the side of which it is counter-clockwise; 0 if it has no area.

@@ -14,11 +14,6 @@ namespace {
 
 int triangles(const SolidState& s) { return static_cast<int>(s.surface.side.size()); }
 
-Vector place(const SolidState& s, int node)
-{
-    return space_vector(s.grains.reference, node) + space_vector(s.grains.displacement, node);
-}
-
 /// Mean displacement of a triangle.
 Vector way_of(const SolidState& s, int triangle)
 {
@@ -80,8 +75,8 @@ void add_pressure_forces(SolidState& s, int block)
     for (int i = plan.first_pressed[block]; i < plan.first_pressed[block + 1]; ++i) {
         const int t = plan.pressed[i];
         const auto& n = surface.nodes[t];
-        const Vector first = place(s, n[0]);
-        const Vector area = 0.5 * cross(place(s, n[1]) - first, place(s, n[2]) - first);
+        const Vector first = s.grains.position(n[0]);
+        const Vector area = 0.5 * cross(s.grains.position(n[1]) - first, s.grains.position(n[2]) - first);
         // what has come loose lies no more in the skin that the pressure acts on, deviation D57
         const double pressure = s.grains.loose[surface.grain[t]] ? 0.0 : surface.pressure[t];
         const Vector now = (-pressure) * area, way = way_of(s, t);

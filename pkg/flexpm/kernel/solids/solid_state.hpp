@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  The state of a bonded specimen in space, polyhedral grains that deform or are rigid, and
-/// apart from it the plan of a step. Its members have the names of those of Assembly. SI units,
-/// tension positive.
+/// apart from it the plan of a step. SI units, tension positive.
 ///
 /// Grains are laid out by `space_layout`: a block holds one grain, in lane 0 of its slots, whose
 /// nodes follow each other, [node][x y z 0], and fill an even number of rows. A lane is a
 /// tetrahedron of one grain, or a contact among those whose faces have as many corners.
 #pragma once
 
+#include <flexpm/kernel/assembly/bonded_state.hpp>
 #include <flexpm/kernel/assembly/contacts.hpp>
-#include <flexpm/kernel/assembly/energy_ledger.hpp>
-#include <flexpm/kernel/assembly/grains.hpp>
-#include <flexpm/kernel/assembly/loading_motion.hpp>
-#include <flexpm/kernel/assembly/parts.hpp>
 #include <flexpm/kernel/core/space_vector.hpp>
 #include <flexpm/kernel/law/face_point.hpp>
 #include <flexpm/kernel/law/solid_elastic.hpp>
@@ -339,42 +335,24 @@ struct SolidPlan {
     int tiles() const { return static_cast<int>(tile_contacts.size()) - 1; }
 };
 
-struct SolidState {
-    Grains grains;
+/// Motions of BondedState have the spin as [grain][x y z] and the angle as the turn, [grain][w x y
+/// z]. The facets of plates are surface triangles.
+struct SolidState : BondedState {
     Tetrahedra tetrahedra;          ///< of rigid grains for their masses alone
     std::vector<RigidBody> bodies;  ///< of each grain; empty: all deform
     FaceContacts contacts;
     SurfaceTriangles surface;
-    std::vector<Plate> plates;  ///< before parts of the outside; facets are surface triangles
-    std::vector<NodeSet> node_sets;
     std::vector<HeldFace> held_faces;
-    EnergyLedger ledger;
-    /// Motions as of the plane; `spin` is [grain][x y z], `angle` the turn, [grain][w x y z].
-    LoadingMotion loading;
-    SteadyMotion steady;
-    std::int64_t step = 0;  ///< steps done
-    SolidPlan plan;         ///< derived, never saved
-
-    /// Motion of the grains that damping does not act on.
-    const GrainMotion& undamped() const
-    {
-        return steady.is_followed() ? steady.mean : loading.grains;
-    }
+    SolidPlan plan;  ///< derived, never saved
 
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
     {
-        visit("grains", s.grains);
+        BondedState::visit_members(s, visit);
         visit("tetrahedra", s.tetrahedra);
         visit("bodies", s.bodies);
         visit("contacts", s.contacts);
         visit("surface", s.surface);
-        visit("plates", s.plates);
-        visit("node_sets", s.node_sets);
         visit("held_faces", s.held_faces);
-        visit("ledger", s.ledger);
-        visit("loading", s.loading);
-        visit("steady", s.steady);
-        visit("step", s.step);
     }
 };
 

@@ -29,7 +29,7 @@ std::vector<Prescribed> prescribed_at(const Assembly& a, const ElasticLoading& l
     const auto drive = [&](int number, double sense) {
         const NodeSet& set = a.node_sets.at(number);
         for (int node : set.nodes) {
-            const Vector arm = grains.position(node) - set.pivot;
+            const Vector arm = grains.point_at(node) - set.pivot;
             const Vector v =
                 way * loading.direction + sense * loading.turn * way * Vector { -arm.y, arm.x };
             set_vector(value, node, in_plane(v));

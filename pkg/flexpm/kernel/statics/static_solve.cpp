@@ -232,7 +232,7 @@ Eigen::VectorXd right_side(const std::vector<StiffnessEntry>& entries, const Unk
     const int size = static_cast<int>(grains.displacement.size());
     const bool turns = index >= size;
     const int axis = turns ? 0 : grains.layout.axis_of(index);
-    const Point p = grains.position(
+    const Point p = grains.point_at(
         turns ? grains.centre(grains.in_slot[index - size]) : index - grains.component(0, axis));
     const std::string at = " at x, y = " + number(p.x) + ", " + number(p.y) + " m ";
     const char* motion = turns ? "about z" : axis == 1 ? "along y" : "along x";

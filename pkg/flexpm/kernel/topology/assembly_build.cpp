@@ -181,7 +181,7 @@ void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<Mes
         a.grains.centre_place(e.cell_b) };
     for (int row = 0; row < NodeRow::count; ++row)
         a.contacts.nodes[row_index(c, row, NodeRow::count)] = nodes[row];
-    const Point p0 = a.grains.position(nodes[0]), p1 = a.grains.position(nodes[1]);
+    const Point p0 = a.grains.point_at(nodes[0]), p1 = a.grains.point_at(nodes[1]);
     const double area = a.area_of(norm(p1 - p0));
     for (int p = 0; p < a.contacts.points_of(c); ++p) {
         a.contacts.area(c, p) = real ? points.share[p] * area : 0.0;
@@ -189,8 +189,8 @@ void fill_contact(Assembly& a, int c, const SharedEdge& e, const std::vector<Mes
             a.contacts.weight(c, p, side) = points.weight[p];
         }
     }
-    const Point ca = a.grains.position(a.grains.centre(e.cell_a)),
-                cb = a.grains.position(a.grains.centre(e.cell_b));
+    const Point ca = a.grains.point_at(a.grains.centre(e.cell_a)),
+                cb = a.grains.point_at(a.grains.centre(e.cell_b));
     a.contacts.set_branch(c, of_edge ? Point {} : cb - ca);
     const Point n = bonded_normal(a, c);
     a.contacts.set_normal(c, n);
@@ -223,8 +223,8 @@ void find_close_pairs(Assembly& a, const Tessellation& t)
         for (int g : cells) {
             for (int h : cells) {
                 if (g >= h || bonded.count({ g, h })) continue;
-                const Point p = a.grains.position(a.grains.centre(g)),
-                            q = a.grains.position(a.grains.centre(h));
+                const Point p = a.grains.point_at(a.grains.centre(g)),
+                            q = a.grains.point_at(a.grains.centre(h));
                 const double d = std::hypot(q.x - p.x, q.y - p.y);
                 if (d < a.grains.radius[g] + a.grains.radius[h])
                     a.contacts.close_pairs[{ g, h }] = d;

@@ -18,7 +18,7 @@ template <class Visit> void for_each_neighbour(const Grains& grains, double size
     std::vector<std::pair<Place, int>> places;
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
-        const Point p = grains.position(grains.centre(g));
+        const Point p = grains.point_at(grains.centre(g));
         if (!is_finite(p)) continue;  // no order would hold; the next check reports it
         places.push_back({ { std::floor(p.y / size), std::floor(p.x / size) }, g });
     }
@@ -49,7 +49,7 @@ bool is_near(const Grains& grains, GrainPair pair, double margin)
 bool any_moved(const Grains& grains, const std::vector<Point>& from, double distance)
 {
     for (int g = 0; g < grains.count; ++g) {
-        const Point way = grains.position(grains.centre(g)) - from[g];
+        const Point way = grains.point_at(grains.centre(g)) - from[g];
         if (!(dot(way, way) <= distance * distance)) return true;
     }
     return false;
@@ -83,7 +83,7 @@ const std::vector<GrainPair>& NearPairs::find(const Assembly& a, double margin)
         watched_margin = margin;
         from.clear();
         for (int g = 0; g < a.grains.count; ++g)
-            from.push_back(a.grains.position(a.grains.centre(g)));
+            from.push_back(a.grains.point_at(a.grains.centre(g)));
     }
     near.clear();
     std::copy_if(watched.begin(), watched.end(), std::back_inserter(near),

@@ -259,7 +259,7 @@ bool is_active(const Contacts& contacts, int contact)
 
 Point between_centres(const Grains& grains, GrainPair pair)
 {
-    return grains.position(grains.centre(pair[1])) - grains.position(grains.centre(pair[0]));
+    return grains.point_at(grains.centre(pair[1])) - grains.point_at(grains.centre(pair[0]));
 }
 
 double square_distance(const Grains& grains, GrainPair pair)

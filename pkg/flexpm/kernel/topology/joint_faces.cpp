@@ -84,7 +84,7 @@ Face face_of(const Contacts& contacts, int bond, int side)
 /// Faces that are nowhere have no order along a joint; the next check reports them.
 bool is_somewhere(const Grains& grains, const Face& face)
 {
-    return is_finite(grains.position(face.nodes[0])) && is_finite(grains.position(face.nodes[1]));
+    return is_finite(grains.point_at(face.nodes[0])) && is_finite(grains.point_at(face.nodes[1]));
 }
 
 /// The joints on which a contact that has cracked has moved.
@@ -125,8 +125,8 @@ struct Line {
     Point start, along;
 
     Line(const Grains& grains, Edge nodes) :
-        start(grains.position(nodes[0])),
-        along(grains.position(nodes[1]) - start)
+        start(grains.point_at(nodes[0])),
+        along(grains.point_at(nodes[1]) - start)
     {
     }
     Point at(double share) const { return start + share * along; }
@@ -162,7 +162,7 @@ bool find_overlap(const Grains& grains, const Face& f, const Face& g, Overlap& o
 /// Extent of a face along an axis.
 std::pair<double, double> extent(const Grains& grains, const Face& face, int axis)
 {
-    const Point p = grains.position(face.nodes[0]), q = grains.position(face.nodes[1]);
+    const Point p = grains.point_at(face.nodes[0]), q = grains.point_at(face.nodes[1]);
     return axis == 0 ? std::minmax(p.x, q.x) : std::minmax(p.y, q.y);
 }
 

@@ -73,11 +73,11 @@ struct Behind {
 Behind find_behind(const Assembly& a, const std::vector<int>& on_joint, int grain)
 {
     const Contacts& contacts = a.contacts;
-    const Point centre = a.grains.position(a.grains.centre(grain));
+    const Point centre = a.grains.point_at(a.grains.centre(grain));
     Behind nearest;
     for (int c : on_joint) {
-        const Point from = a.grains.position(contacts.node(c, 0, 0));
-        const Point along = a.grains.position(contacts.node(c, 0, 1)) - from;
+        const Point from = a.grains.point_at(contacts.node(c, 0, 0));
+        const Point along = a.grains.point_at(contacts.node(c, 0, 1)) - from;
         const double share = dot(centre - from, along) / dot(along, along);
         if (share < 0.0 || share > 1.0) continue;
         const double height = dot(centre - from, contacts.normal(c));

@@ -15,7 +15,7 @@ ClosestPoint closest_point(const Grains& grains, int grain, Point x, Point tange
     double least = -1.0;
     for (int k = 0; k < corners; ++k) {
         const int n0 = grains.node(grain, k), n1 = grains.node(grain, (k + 1) % corners);
-        const Point p0 = grains.position(n0), edge = grains.position(n1) - p0;
+        const Point p0 = grains.point_at(n0), edge = grains.point_at(n1) - p0;
         const double square = dot(edge, edge);
         const double share = dot(x - p0, edge) / square;
         const double w = std::min(std::max(share, 0.0), 1.0);
@@ -31,8 +31,8 @@ ClosestPoint closest_point(const Grains& grains, int grain, Point x, Point tange
 
 TouchPoint touch_point(const Grains& grains, GrainPair pair)
 {
-    const Point a = grains.position(grains.centre(pair[0]));
-    const Point branch = grains.position(grains.centre(pair[1])) - a;
+    const Point a = grains.point_at(grains.centre(pair[0]));
+    const Point branch = grains.point_at(grains.centre(pair[1])) - a;
     const double distance = norm(branch);
     const Point normal { branch.x / distance, branch.y / distance };
     const Point tangent { -branch.y / distance, branch.x / distance };

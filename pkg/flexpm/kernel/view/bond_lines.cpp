@@ -21,8 +21,8 @@ Point drawn_end(const Assembly& a, int contact, int end, double factor)
         const double share = acting_part(a, contact, side)[end];
         sum = sum
             + 0.5
-                * ((1.0 - share) * drawn_position(a.grains, from, factor)
-                    + share * drawn_position(a.grains, to, factor));
+                * ((1.0 - share) * a.grains.point_at(from, factor)
+                    + share * a.grains.point_at(to, factor));
     }
     return sum;
 }
@@ -42,7 +42,7 @@ Line branch_line(const Assembly& a, int contact, double factor)
 {
     const auto centre = [&](int side) {
         const int grain = a.contacts.pairs[contact][side];
-        return drawn_position(a.grains, a.grains.centre(grain), factor);
+        return a.grains.point_at(a.grains.centre(grain), factor);
     };
     return { centre(0), centre(1) };
 }

@@ -213,12 +213,12 @@ template <class State> std::vector<double> values_of(const State& a, GrainValue 
 
 Tensor stress_by_forces(const Assembly& a, int grain)
 {
-    const Point centre = a.grains.position(a.grains.centre(grain));
+    const Point centre = a.grains.point_at(a.grains.centre(grain));
     const double volume = a.volume_of(area_of(a.grains, grain));
     Tensor sum {};
     for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
         const int node = a.grains.node(grain, n);
-        const Point r = a.grains.position(node) - centre, f = a.grains.force_at(node);
+        const Point r = a.grains.point_at(node) - centre, f = a.grains.force_at(node);
         sum.xx += r.x * f.x / volume;
         sum.yy += r.y * f.y / volume;
         sum.xy += 0.5 * (r.x * f.y + r.y * f.x) / volume;
@@ -257,17 +257,12 @@ Extent extent_of(const Grains& grains)
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
         for (int n = 0; n < grains.vertices_of(g); ++n) {
-            const Point p = grains.position(grains.node(g, n));
+            const Point p = grains.point_at(grains.node(g, n));
             found.low = { std::min(found.low.x, p.x), std::min(found.low.y, p.y) };
             found.high = { std::max(found.high.x, p.x), std::max(found.high.y, p.y) };
         }
     }
     return found;
-}
-
-Point drawn_position(const Grains& grains, int node, double factor)
-{
-    return grains.reference_at(node) + factor * grains.displacement_at(node);
 }
 
 }  // namespace flexpm

@@ -55,7 +55,4 @@ struct Extent {
 };
 Extent extent_of(const Grains& grains);
 
-/// Where a node is drawn if displacements are drawn `factor` times larger [m].
-Point drawn_position(const Grains& grains, int node, double factor);
-
 }  // namespace flexpm

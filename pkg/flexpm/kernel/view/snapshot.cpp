@@ -34,7 +34,7 @@ void add_grain(const Assembly& a, int grain, Snapshot& s)
     const int first = static_cast<int>(s.positions.size() / 2);
     for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
         const int node = a.grains.node(grain, n);
-        push(s.positions, a.grains.position(node));
+        push(s.positions, a.grains.point_at(node));
         push(s.reference, a.grains.reference_at(node));
         push(s.velocities, a.grains.velocity_at(node));
         push(s.forces, a.grains.force_at(node));
@@ -118,7 +118,7 @@ Point contact_end(const Assembly& a, int contact, int end)
     for (int side = 0; side < 2; ++side) {
         const auto [from, to] = a.contacts.edge(contact, side);
         const double share = acting_part(a, contact, side)[end];
-        const Point p = a.grains.position(from), q = a.grains.position(to);
+        const Point p = a.grains.point_at(from), q = a.grains.point_at(to);
         sum = sum + 0.5 * ((1.0 - share) * p + share * q);
     }
     return sum;

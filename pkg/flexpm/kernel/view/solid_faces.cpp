@@ -122,7 +122,7 @@ GrainFaces grain_faces(const SolidState& s, int grain, const std::vector<NodePai
     const auto add_line = [&](const Segment& line) {
         if (norm(line[1] - line[0]) > 0.0) found.lines.push_back(line);
     };
-    const auto place = [&](int node) { return drawn_place(s.grains, node, factor); };
+    const auto place = [&](int node) { return s.grains.position(node, factor); };
     for_each_tetrahedron(
         s, s.grains.block_of(grain), [&](const TetrahedronShape&, const std::array<int, 4>& nodes) {
             const Polygon outer { place(nodes[1]), place(nodes[2]), place(nodes[3]) };
@@ -214,7 +214,7 @@ std::array<Vector, 2> box_around(const SolidState& s)
     constexpr double far = std::numeric_limits<double>::max();
     Vector low { far, far, far }, high { -far, -far, -far };
     for_each_node(s, [&](int grain, int number) {
-        const Vector p = drawn_place(s.grains, s.grains.node(grain, number));
+        const Vector p = s.grains.position(s.grains.node(grain, number));
         low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
         high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
     });

@@ -40,7 +40,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::SteadyMotion& part, unsigned) { archiveMembers(archive, part); }
 
 	/// Version of what visit_members() lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned assemblyVersion = 24;
+	constexpr unsigned assemblyVersion = 25;
 
 	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned version)
 	{
@@ -61,7 +61,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::RigidBody& part, unsigned) { archiveMembers(archive, part); }
 
 	/// Version of what SolidState lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned solidVersion = 4;
+	constexpr unsigned solidVersion = 5;
 
 	/// Call flexpm::prepare_step() after loading.
 	template <class Archive> void serialize(Archive& archive, flexpm::SolidState& solid, unsigned version)

@@ -34,16 +34,6 @@ OwnedAssembly assemblyOfGrain(int grain)
 	throw std::runtime_error("LaguerreCell.grain = " + std::to_string(grain) + ", is no grain of the solver; build the specimen first (flexpm.build)");
 }
 
-Vector3r vectorOf(const flexpm::Grains& grains, const flexpm::Array<double>& values, int node)
-{
-	Vector3r found = Vector3r::Zero();
-	for (int axis = 0; axis < grains.layout.dimension; ++axis)
-		found[axis] = values[grains.component(node, axis)];
-	return found;
-}
-
-Vector3r nodePlace(const flexpm::Grains& grains, int node) { return vectorOf(grains, grains.reference, node) + vectorOf(grains, grains.displacement, node); }
-
 int contactAt(const OwnedAssembly& owned, int contact)
 {
 	if (owned.plane) return flexpm::contact_with_id(*owned.plane, contact);

@@ -37,8 +37,6 @@ struct OwnedContact : OwnedAssembly {
 };
 
 /// Where a node is, by its offset, or a vector of it in YADE's space [m].
-Vector3r        vectorOf(const flexpm::Grains& grains, const flexpm::Array<double>& values, int node);
-Vector3r        nodePlace(const flexpm::Grains& grains, int node);
 inline Vector3r toYade(flexpm::Vector v) { return Vector3r(v.x, v.y, v.z); }
 
 /// The first grains that the scene's engines own, if any.

@@ -31,13 +31,13 @@ void Bo1_LaguerreCell_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>
 	if (!owned.engine || grain < 0 || grain >= owned.grains().count) return reportOnce(grain, body->getId());
 	const auto& grains = owned.grains();
 	if (!bound) bound = boost::make_shared<Aabb>();
-	const Vector3r centre = nodePlace(grains, grains.centre(grain));
+	const Vector3r centre = toYade(grains.position(grains.centre(grain)));
 	// a disc is as thick as wide; a polyhedron has its corners
 	const Real r = owned.plane ? grains.radius[grain] : 0.;
 	bound->min   = centre - Vector3r(r, r, r);
 	bound->max   = centre + Vector3r(r, r, r);
 	for (int n = 0; n < grains.nodes_of(grain); ++n) {
-		const Vector3r corner = nodePlace(grains, grains.node(grain, n));
+		const Vector3r corner = toYade(grains.position(grains.node(grain, n)));
 		bound->min            = bound->min.cwiseMin(corner);
 		bound->max            = bound->max.cwiseMax(corner);
 	}

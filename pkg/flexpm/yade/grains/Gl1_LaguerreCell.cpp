@@ -41,7 +41,7 @@ namespace {
 
 		void vertex(int n) const
 		{
-			const auto p = flexpm::drawn_position(grains, grains.node(grain, n), scale);
+			const auto p = grains.position(grains.node(grain, n), scale);
 			glVertex3d(p.x - origin[0], p.y - origin[1], 0.);
 		}
 

@@ -65,7 +65,7 @@ LaguerreCell::~LaguerreCell() { ++destroyedContacts(); }
 py::object LaguerreCell::positions() const
 {
 	const auto owned = assemblyOfGrain(grain);
-	if (owned.space) return nodeCopy(owned.space->grains, grain, [&](int node) { return flexpm::drawn_place(owned.space->grains, node); });
+	if (owned.space) return nodeCopy(owned.space->grains, grain, [&](int node) { return owned.space->grains.position(node); });
 	if (owned.plane->plan.shown_position.empty()) flexpm::show_positions(*owned.plane);
 	return nodeView(owned, grain, owned.plane->plan.shown_position, Access::readOnly);
 }

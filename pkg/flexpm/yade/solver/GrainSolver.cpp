@@ -74,7 +74,7 @@ namespace {
 	{
 		const Real margin = .5 * bound.sweepLength;
 		for (int n = 0; n < grains.nodes_of(grain); ++n) {
-			const Vector3r p = nodePlace(grains, grains.node(grain, n));
+			const Vector3r p = toYade(grains.position(grains.node(grain, n)));
 			for (int axis = 0; axis < grains.layout.dimension; ++axis) {
 				if (p[axis] < bound.min[axis] + margin || p[axis] > bound.max[axis] - margin) return true;
 			}

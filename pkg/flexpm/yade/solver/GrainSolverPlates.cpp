@@ -74,7 +74,7 @@ py::tuple GrainSolver::nodePlaces(bool bonded)
 	const auto          nodes = flexpm::holdable_nodes(current());
 	std::vector<double> places;
 	for (int node : nodes) {
-		const auto p = bonded ? assembly.grains.reference_at(node) : assembly.grains.position(node);
+		const auto p = bonded ? assembly.grains.reference_at(node) : assembly.grains.point_at(node);
 		places.insert(places.end(), { p.x, p.y });
 	}
 	return py::make_tuple(flexpm_bindings::copied(nodes, 0), flexpm_bindings::copied(places, 2));

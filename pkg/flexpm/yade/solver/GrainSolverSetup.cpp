@@ -114,7 +114,7 @@ void GrainSolver::insertBodies()
 		cell->grain      = grain;
 		body->shape      = cell;
 		body->material   = materials[grains().material[grain]];
-		body->state->pos = body->state->refPos = nodePlace(grains(), grains().centre(grain));
+		body->state->pos = body->state->refPos = toYade(grains().position(grains().centre(grain)));
 		body->state->blockedDOFs               = State::DOF_ALL;
 		const auto mass                        = onState([&](const auto& state) { return massOf(state, grain); });
 		body->state->mass                      = mass.mass;

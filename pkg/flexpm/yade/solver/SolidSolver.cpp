@@ -194,7 +194,7 @@ py::tuple SolidSolver::nodePlaces(bool bonded)
 	const auto          nodes = flexpm::holdable_nodes(state);
 	std::vector<double> places;
 	for (int node : nodes) {
-		const auto p = bonded ? flexpm::space_vector(state.grains.reference, node) : flexpm::drawn_place(state.grains, node);
+		const auto p = bonded ? flexpm::space_vector(state.grains.reference, node) : flexpm::state.grains.position(node);
 		places.insert(places.end(), { p.x, p.y, p.z });
 	}
 	return py::make_tuple(flexpm_bindings::copied(nodes, 0), flexpm_bindings::copied(places, 3));
@@ -313,8 +313,8 @@ void SolidSolver::mirrorStates()
 		if (!states[grain]) continue;
 		State&    shown    = *states[grain];
 		const int centre   = grains.centre(grain);
-		shown.se3.position = nodePlace(grains, centre);
-		shown.vel          = vectorOf(grains, grains.velocity, centre);
+		shown.se3.position = toYade(grains.position(centre));
+		shown.vel          = toYade(grains.vector(grains.velocity, centre));
 		if (!grains.is_rigid(grain)) continue;
 		const auto& body      = state.bodies[grain];
 		shown.se3.orientation = Quaternionr(body.turn.w, body.turn.v.x, body.turn.v.y, body.turn.v.z);
