@@ -3,8 +3,8 @@
 /// elastic and with softening points.
 #include "solid_loaded.hpp"
 
-#include <flexpm/kernel/solids/face_forces.hpp>
-#include <flexpm/kernel/solids/tetrahedron_forces.hpp>
+#include <flexpm/kernel/space_lanes/face_forces.hpp>
+#include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 
 #include <benchmark/benchmark.h>
 

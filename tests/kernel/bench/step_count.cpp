@@ -5,7 +5,7 @@
 #include "solid_loaded.hpp"
 
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/measure/solid_energies.hpp>
 
 #include <cstdio>
 #include <exception>

@@ -7,7 +7,7 @@
 #include <flexpm/kernel/core/vector.hpp>
 #include <flexpm/kernel/forces/held_sides.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
 

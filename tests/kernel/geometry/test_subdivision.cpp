@@ -5,7 +5,7 @@
 #include <flexpm/kernel/geometry/polygon.hpp>
 #include <flexpm/kernel/geometry/subdivision.hpp>
 #include <flexpm/kernel/law/bilinear_step.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/view/snapshot.hpp>

@@ -5,7 +5,7 @@
 #include <flexpm/kernel/iteration/coarse_grid.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 
-#include "solids/solid_states.hpp"
+#include "support/solid_states.hpp"
 
 using namespace solid_states;
 

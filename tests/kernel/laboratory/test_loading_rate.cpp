@@ -3,7 +3,7 @@
 /// driven velocity keeps the balance of energies. SI units.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>

@@ -4,7 +4,7 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>

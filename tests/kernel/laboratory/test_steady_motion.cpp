@@ -8,7 +8,7 @@
 #include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
 

@@ -7,7 +7,7 @@
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/energy_sums.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 
 #include "support/balance.hpp"

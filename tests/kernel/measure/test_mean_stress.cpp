@@ -2,7 +2,7 @@
 /// @file  The mean stress of a specimen and the one of what acts on it from outside.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>

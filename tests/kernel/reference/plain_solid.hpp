@@ -6,7 +6,7 @@
 
 #include <flexpm/kernel/fem/tetrahedron.hpp>
 #include <flexpm/kernel/law/face_point.hpp>
-#include <flexpm/kernel/motion/quaternion.hpp>
+#include <flexpm/kernel/core/quaternion.hpp>
 #include <flexpm/kernel/space/face_points.hpp>
 #include <flexpm/kernel/space/polyhedra.hpp>
 

@@ -2,8 +2,8 @@
 #include "reference/read_state.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
 
 #include <algorithm>

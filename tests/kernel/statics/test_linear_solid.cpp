@@ -3,12 +3,12 @@
 /// share are those of one, to the bit.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/solid_tests/solid_ends.hpp>
-#include <flexpm/kernel/solids/solid_masses.hpp>
+#include <flexpm/kernel/laboratory/solid_ends.hpp>
+#include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/statics/linear_solid.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 
-#include "solids/solid_states.hpp"
+#include "support/solid_states.hpp"
 
 using namespace solid_states;
 

@@ -4,7 +4,7 @@
 
 #include <flexpm/kernel/statics/solid_field.hpp>
 
-#include "solids/solid_states.hpp"
+#include "support/solid_states.hpp"
 
 #include <functional>
 

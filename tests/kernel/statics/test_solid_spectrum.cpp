@@ -2,10 +2,10 @@
 /// @file  Largest frequency of solids, and masses that come close to what it asks for.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/solid_tests/solid_ends.hpp>
+#include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/statics/solid_spectrum.hpp>
 
-#include "solids/solid_states.hpp"
+#include "support/solid_states.hpp"
 
 using namespace solid_states;
 

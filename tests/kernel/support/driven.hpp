@@ -3,7 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/step/step.hpp>
 
 #include "support/specimens.hpp"

@@ -4,11 +4,11 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/specimen_strain.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/contact_search.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>

@@ -2,7 +2,7 @@
 /// @file  Values by which a window colours grains, in states with closed forms. SI units, tension
 /// positive.
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/topology/erasure.hpp>
 #include <flexpm/kernel/view/grain_values.hpp>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Faces, sections and values by which a window shows solids, against volumes, areas and
 /// numbers that must come out. SI units, tension positive.
-#include <flexpm/kernel/solids/solid_access.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/view/grain_values.hpp>
 #include <flexpm/kernel/view/solid_faces.hpp>
 
 #include "support/catch.hpp"
 
-#include "solids/solid_states.hpp"
+#include "support/solid_states.hpp"
 
 #include <numeric>
 #include <set>

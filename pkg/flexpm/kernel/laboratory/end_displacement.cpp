@@ -2,8 +2,8 @@
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/forces/node_sets.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 

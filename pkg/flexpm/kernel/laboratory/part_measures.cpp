@@ -3,12 +3,12 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/forces/node_sets.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/motion/rigid_support.hpp>
+#include <flexpm/kernel/parts/rigid_support.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
 #include <algorithm>

@@ -6,11 +6,11 @@
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
-#include <flexpm/kernel/forces/node_sets.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/measure/energy_sums.hpp>
 #include <flexpm/kernel/measure/part_sums.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/core/simd.hpp>
-#include <flexpm/kernel/measure/lane_sum.hpp>
+#include <flexpm/kernel/core/lane_sum.hpp>
 
 #include <cmath>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include <flexpm/kernel/measure/mean_stress.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 
 #include <algorithm>
 #include <cmath>

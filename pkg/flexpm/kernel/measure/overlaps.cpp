@@ -2,7 +2,7 @@
 #include <flexpm/kernel/measure/overlaps.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/forces/bond_faces.hpp>
+#include <flexpm/kernel/plane_lanes/bond_faces.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/iteration/free_solve.hpp>
-#include <flexpm/kernel/motion/plate_springs.hpp>
+#include <flexpm/kernel/parts/plate_springs.hpp>
 
 #include <array>
 #include <vector>

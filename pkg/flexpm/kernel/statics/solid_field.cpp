@@ -2,8 +2,8 @@
 #include <flexpm/kernel/statics/solid_field.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/solids/solid_plates.hpp>
-#include <flexpm/kernel/solids/tetrahedron_forces.hpp>
+#include <flexpm/kernel/parts/solid_plates.hpp>
+#include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/statics/linear_solid.hpp>
 
 #include <algorithm>

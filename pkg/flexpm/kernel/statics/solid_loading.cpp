@@ -2,27 +2,15 @@
 #include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/solids/solid_bodies.hpp>
-#include <flexpm/kernel/solids/solid_energies.hpp>
-#include <flexpm/kernel/solids/solid_plates.hpp>
-#include <flexpm/kernel/solids/solid_step.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
+#include <flexpm/kernel/measure/solid_energies.hpp>
+#include <flexpm/kernel/parts/solid_plates.hpp>
+#include <flexpm/kernel/step/solid_step.hpp>
 
 #include <algorithm>
 #include <string>
 
 namespace flexpm {
-
-std::vector<int> side_nodes(const SolidState& s, SolidSide side)
-{
-    std::vector<int> nodes;
-    for (std::size_t f = 0; f < s.surface.side.size(); ++f) {
-        if (s.surface.side[f] != static_cast<int>(side)) continue;
-        nodes.insert(nodes.end(), s.surface.nodes[f].begin(), s.surface.nodes[f].end());
-    }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    return nodes;
-}
 
 double end_place(const SolidState& s, SolidSide side)
 {
@@ -34,22 +22,6 @@ double end_place(const SolidState& s, SolidSide side)
             "must be above 0; give a solid with bottom and top, or a disc between plates");
     }
     return s.plates[plate].position.z;
-}
-
-void prescribe(SolidState& s, const std::vector<int>& nodes, int axis, double velocity)
-{
-    for (int n : nodes) {
-        s.grains.velocity[s.grains.component(n, axis)] = velocity;
-        s.grains.prescribed[s.grains.component(n, axis)] = 1;
-    }
-}
-
-double holding_force(const SolidState& s, const std::vector<int>& nodes, int axis)
-{
-    double sum = 0.0;
-    for (int n : nodes)
-        sum -= s.grains.force[s.grains.component(n, axis)];
-    return sum;
 }
 
 namespace {

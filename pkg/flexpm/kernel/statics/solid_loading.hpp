@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  What moves a specimen in space, between ends without friction as a rule, and the force
-/// that this takes. SI units.
+/// @file  The motion of a specimen in space from a linear solution of it. SI units.
 #pragma once
 
-#include <flexpm/kernel/solids/solid_state.hpp>
-#include <flexpm/kernel/space/solid.hpp>
+#include <flexpm/kernel/forces/solid_sides.hpp>
 
 #include <cstddef>
 #include <vector>
 
 namespace flexpm {
 
-/// Nodes of the grains on a side, without repetition, by their offsets.
-std::vector<int> side_nodes(const SolidState& s, SolidSide side);
-
 /// z of an end at the reference, by its nodes, or by the plate that touches it [m].
 /// @throws std::invalid_argument  if there is neither
 double end_place(const SolidState& s, SolidSide side);
-
-/// Give nodes a velocity along an axis (0: x) from now on [m/s].
-void prescribe(SolidState& s, const std::vector<int>& nodes, int axis, double velocity);
-
-/// Force along an axis that holds nodes against the grains [N].
-double holding_force(const SolidState& s, const std::vector<int>& nodes, int axis);
 
 /// Motion of a plate as it follows what it touches.
 struct PlateMotion {

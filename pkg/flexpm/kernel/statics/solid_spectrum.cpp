@@ -2,7 +2,7 @@
 #include <flexpm/kernel/statics/solid_spectrum.hpp>
 
 #include <flexpm/kernel/core/random.hpp>
-#include <flexpm/kernel/solids/solid_masses.hpp>
+#include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 

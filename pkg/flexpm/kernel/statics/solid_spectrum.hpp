@@ -3,7 +3,7 @@
 /// asks for. The bound of solid_masses.hpp lies well above it. SI units.
 #pragma once
 
-#include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
 
 namespace flexpm {
 

@@ -4,7 +4,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>

@@ -3,7 +3,7 @@
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 
 #include <array>
 #include <utility>

@@ -2,7 +2,7 @@
 #include <flexpm/kernel/statics/unilateral_solve.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 
 #include <cmath>
 #include <limits>

@@ -4,8 +4,8 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 
 #include <algorithm>
 #include <array>

@@ -8,17 +8,10 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/assembly/step_options.hpp>
 #include <flexpm/kernel/forces/outer_forces.hpp>
 
 namespace flexpm {
-
-struct StepOptions {
-    double dt = 1.0;                     ///< time step [s]; 1 with scaled masses
-    double damping = 0.7;                ///< alpha of Eq. 2 [-], 0 <= alpha < 1
-    int threads = 1;                     ///< results do not depend on it
-    bool measure = false;                ///< also sum kinetic energy and largest unbalanced force
-    const OuterForces* outer = nullptr;  ///< that act in this step, if any do
-};
 
 /// @throws std::invalid_argument  if an option is out of range or prepare_step() has not been
 ///         called

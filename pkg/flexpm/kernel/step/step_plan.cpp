@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/step/step_plan.hpp>
 
-#include <flexpm/kernel/forces/nodal_forces.hpp>
-#include <flexpm/kernel/forces/prefetch.hpp>
+#include <flexpm/kernel/plane_lanes/nodal_forces.hpp>
+#include <flexpm/kernel/plane_lanes/prefetch.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/tiles.hpp>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/energy_ledger.hpp>
-#include <flexpm/kernel/motion/central_difference.hpp>
+#include <flexpm/kernel/core/central_difference.hpp>
 
 #include <algorithm>
 

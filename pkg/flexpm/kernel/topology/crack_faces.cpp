@@ -3,7 +3,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/fem/edge_points.hpp>
-#include <flexpm/kernel/forces/bond_faces.hpp>
+#include <flexpm/kernel/plane_lanes/bond_faces.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include <flexpm/kernel/topology/removal.hpp>
 
 #include <flexpm/kernel/assembly/triangle_rows.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 
 #include <algorithm>
 

@@ -4,8 +4,8 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/fem/triangle.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
-#include <flexpm/kernel/solids/solid_access.hpp>
-#include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
+#include <flexpm/kernel/measure/solid_energies.hpp>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
-#include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/view/solid_faces.hpp>
 
-#include <flexpm/kernel/solids/solid_access.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 
 #include <algorithm>
 #include <cmath>

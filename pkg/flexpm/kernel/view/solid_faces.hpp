@@ -3,7 +3,7 @@
 /// SI units.
 #pragma once
 
-#include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
 
 #include <array>
 #include <vector>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/serialization.hpp>
-#include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
 
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>

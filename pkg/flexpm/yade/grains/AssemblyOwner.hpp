@@ -3,7 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
-#include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 
 namespace yade {

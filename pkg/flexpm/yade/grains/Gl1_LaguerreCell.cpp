@@ -3,7 +3,7 @@
 #include <flexpm/yade/grains/LaguerreCell.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/solids/solid_access.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/view/colours.hpp>
 #include <flexpm/kernel/view/grain_values.hpp>
 #include <flexpm/kernel/view/solid_faces.hpp>

@@ -4,7 +4,7 @@
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/solids/solid_access.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/view/bond_lines.hpp>
 #include <flexpm/kernel/view/solid_faces.hpp>
 #include <flexpm/yade/grains/AssemblyOwner.hpp>

@@ -4,9 +4,9 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
-#include <flexpm/kernel/solids/solid_access.hpp>
-#include <flexpm/kernel/solids/solid_bodies.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/yade/bindings/array_view.hpp>
 #include <flexpm/yade/grains/AssemblyOwner.hpp>

@@ -4,7 +4,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
-#include <flexpm/kernel/solid_tests/solid_drive.hpp>
+#include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/yade/bindings/scales_dict.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 

@@ -2,7 +2,7 @@
 #include <flexpm/yade/laboratory/ConfinementController.hpp>
 
 #include <flexpm/kernel/forces/sides.hpp>
-#include <flexpm/kernel/solids/solid_pressure.hpp>
+#include <flexpm/kernel/forces/solid_pressure.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {

@@ -7,9 +7,9 @@
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/solid_tests/solid_ends.hpp>
-#include <flexpm/kernel/solid_tests/solid_softening.hpp>
-#include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/laboratory/solid_ends.hpp>
+#include <flexpm/kernel/laboratory/solid_softening.hpp>
+#include <flexpm/kernel/measure/solid_energies.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <limits>

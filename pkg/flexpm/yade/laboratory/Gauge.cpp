@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/Gauge.hpp>
 
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
-#include <flexpm/kernel/solid_tests/solid_gauge.hpp>
+#include <flexpm/kernel/laboratory/solid_gauge.hpp>
 
 #include <algorithm>
 

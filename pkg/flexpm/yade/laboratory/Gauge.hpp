@@ -2,7 +2,7 @@
 /// @file  A reading of a specimen by its name: how far two points open, a strain, the way of a plate or a section.
 #pragma once
 
-#include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
 

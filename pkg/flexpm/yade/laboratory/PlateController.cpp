@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/PlateController.hpp>
 
-#include <flexpm/kernel/forces/node_sets.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/PressureController.hpp>
 
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
-#include <flexpm/kernel/solids/solid_plates.hpp>
+#include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/SolidLoadingController.hpp>
 
-#include <flexpm/kernel/solid_tests/solid_drive.hpp>
+#include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {

@@ -5,7 +5,7 @@
 
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
-#include <flexpm/kernel/solid_tests/solid_parts.hpp>
+#include <flexpm/kernel/laboratory/solid_parts.hpp>
 #include <flexpm/yade/abi/yade_lite.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/forces/outer_forces.hpp>
-#include <flexpm/kernel/solids/solid_state.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/contact_search.hpp>
 #include <flexpm/kernel/topology/erasure.hpp>

@@ -4,10 +4,10 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/motion/centre_motion.hpp>
-#include <flexpm/kernel/motion/rigid_grain.hpp>
-#include <flexpm/kernel/solids/solid_access.hpp>
-#include <flexpm/kernel/solids/solid_energies.hpp>
+#include <flexpm/kernel/plane_lanes/centre_motion.hpp>
+#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
+#include <flexpm/kernel/measure/solid_energies.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 #include <algorithm>

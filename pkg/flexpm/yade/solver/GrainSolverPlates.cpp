@@ -3,8 +3,8 @@
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <flexpm/kernel/forces/held_sides.hpp>
-#include <flexpm/kernel/forces/node_sets.hpp>
-#include <flexpm/kernel/forces/plate_contact.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/topology/part_plates.hpp>

@@ -5,7 +5,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/solids/solid_masses.hpp>
+#include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/assembly_build.hpp>
 #include <flexpm/yade/bindings/assembly_input.hpp>

@@ -2,11 +2,11 @@
 /// @file  What Python asks of a solid: counts, overlaps, arrays.
 #include <flexpm/yade/solver/SolidSolver.hpp>
 
-#include <flexpm/kernel/solid_tests/solid_balance.hpp>
-#include <flexpm/kernel/solid_tests/solid_frame.hpp>
-#include <flexpm/kernel/solid_tests/solid_record.hpp>
-#include <flexpm/kernel/solid_tests/solid_snapshot.hpp>
-#include <flexpm/kernel/solids/tetrahedron_forces.hpp>
+#include <flexpm/kernel/measure/solid_balance.hpp>
+#include <flexpm/kernel/laboratory/solid_frame.hpp>
+#include <flexpm/kernel/measure/solid_overlaps.hpp>
+#include <flexpm/kernel/view/solid_snapshot.hpp>
+#include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 
 #include <algorithm>
 #include <memory>

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Plates against parts of the outside of a specimen in space, which hold and load it, and
+/// what their test records: part_plates.hpp and part_measures.hpp of the plane. SI units.
+#pragma once
+
+#include <flexpm/kernel/laboratory/part_measures.hpp>
+#include <flexpm/kernel/laboratory/solid_frame.hpp>
+#include <flexpm/kernel/statics/solid_field.hpp>
+
+namespace flexpm {
+
+/// Part of the outside that lies in a box and faces a plate.
+struct SolidPatch {
+    Vector normal;          ///< into the specimen, along an axis
+    Vector low, high;       ///< corners of the box [m]
+    double friction = 0.0;  ///< coefficient [-]; 0: smooth
+    bool bonded = false;
+    double strip = 0.0;   ///< of a soft layer between, in series [Pa/m]; 0: none
+    bool seated = false;  ///< turns about the middle of its face, as on a spherical seat
+};
+
+/// Lay a plate on a patch. It turns on a seat alone. A surface triangle that leaves the box is
+/// touched where what is within has its middle. Masses must be scaled again afterwards.
+/// @return  number of the plate
+/// @throws std::invalid_argument  for a normal that is no unit vector, a friction below 0, one of a
+///                                bonded plate, if nothing faces the plate there, or one on a seat
+///                                touches in a line
+int add_patch_plate(SolidState& s, const SolidPatch& patch);
+
+/// Number of the plate that add_patch_plate() has laid on a patch; -1 if there is none.
+int find_patch_plate(const SolidState& s, const SolidPatch& patch);
+
+/// Frame of a test by plates, whose load is positive as the driven ones push; as part_frame() of
+/// the plane. There is no lateral strain.
+/// @throws std::invalid_argument  for a plate that there is not, or a size that is not above 0
+SolidFrame solid_part_frame(const SolidState& s, const PartGeometry& parts);
+
+/// What its elastic solution drives: a way of 1 m, or an angle of 1 rad. The direction of what
+/// turns is its axis.
+SolidDrive drive_of(const PartGeometry& parts);
+
+/// Where its elastic solution takes a specimen, whose plates hold what touches them.
+struct SolidPartState {
+    SolidState state;        ///< with the forces of all parts; what loads goes 1 m or rad in 1 s
+    double way = 0.0;        ///< of what is driven, so small that all is linear [m, or rad]; of the
+                             ///< crosshead of a soft machine
+    double load = 0.0;       ///< of the driven parts [N, or N m]
+    double softening = 0.0;  ///< way of the part itself at which the first point of the unloaded
+                             ///< specimen softens
+};
+
+/// @throws std::invalid_argument  as solid_part_frame()
+/// @throws std::runtime_error     if the forces do not come to balance
+SolidPartState elastic_part_state(const SolidState& s, const PartGeometry& parts, double dt);
+
+/// Pressure on a plate that is free to move along its normal.
+struct PlatePressure {
+    int plate;
+    double pressure;  ///< [Pa]
+};
+
+/// The same under pressures, where what is driven stays. `way` is then the part of the pressures
+/// that acts, so small that all is linear [-]. Parts need not be driven.
+/// @throws std::invalid_argument  for a plate that no load moves, or if nothing gives way
+/// @throws std::runtime_error     if the forces do not come to balance
+SolidPartState pressed_part_state(
+    const SolidState& s, const PartGeometry& parts, const std::vector<PlatePressure>& pressures);
+
+/// Load of the driven parts along the loading, as a record has it; 0 without [N, or N m].
+double part_load(const SolidState& s, const PartGeometry& parts);
+
+/// Growth of the load of plates as the grains move at a velocity; of those that hold where node
+/// sets are driven [N/s].
+double part_load_rate(
+    const SolidState& s, const PartGeometry& parts, const Array<double>& velocity);
+
+/// Its scales, from the elastic solution, as part_scales() has them; `width` is the root of the
+/// area. The way is that of plates themselves, also in a soft machine. Contacts that pull in that
+/// solution bear nothing: with the rock's own stiffnesses a thousandth of the load or less.
+/// @param strength  stress that the test may reach, roughly [Pa]; 0: twice that at which the first
+///                  point of the unloaded specimen softens
+/// @throws std::runtime_error  if the forces do not come to balance
+TestScales solid_part_scales(
+    const SolidState& s, const PartGeometry& parts, double strength, double dt);
+
+}  // namespace flexpm

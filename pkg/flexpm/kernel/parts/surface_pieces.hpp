@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  What of a surface triangle lies before a plate of a test. SI units.
+#pragma once
+
+#include <flexpm/kernel/core/space_vector.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
+
+#include <array>
+#include <vector>
+
+namespace flexpm {
+
+/// Places whose part along a normal is at most so much.
+struct HalfSpace {
+    Vector normal;
+    double most = 0.0;  ///< [m]
+};
+
+/// Part of a triangle.
+struct Piece {
+    double share = 0.0;               ///< of its area [-]; 0: none
+    std::array<double, 3> middle {};  ///< shares of the corners in its middle
+    Vector place;                     ///< of the middle [m]
+};
+
+/// Whether a plate may touch a triangle: within 60 degrees it faces the plate's normal.
+/// @param outwards  any length along the triangle's normal
+bool faces(const Plate& plate, Vector outwards);
+
+/// Part of a surface triangle, at the reference, that lies in all of some half spaces.
+Piece piece_of(const SolidState& s, int triangle, const std::vector<HalfSpace>& within);
+
+/// Let a plate touch a piece of a triangle, in its middle.
+void add_touch(const SolidState& s, Plate& plate, int triangle, const Piece& piece);
+
+}  // namespace flexpm

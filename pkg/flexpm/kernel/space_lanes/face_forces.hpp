@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Contacts between polyhedral grains, `lanes` at a time: deviations D66 and D67.
+#pragma once
+
+#include <flexpm/kernel/assembly/solid_state.hpp>
+
+namespace flexpm {
+
+/// Update points and forces of blocks of contacts at the present places, and record what cracks.
+///
+/// @param dt  of the move that has led there with the present velocities; 0: none has
+/// @return    number of contacts whose middle face has no area
+int update_face_blocks(SolidState& s, int first, int end, double dt);
+
+}  // namespace flexpm

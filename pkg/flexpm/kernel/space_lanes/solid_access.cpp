@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
+
+namespace flexpm {
+
+std::vector<Vector> middle_face(const SolidState& s, int contact, double factor)
+{
+    std::vector<Vector> middle;
+    for (int k = 0; k < s.contacts.corners_of(contact); ++k)
+        middle.push_back(0.5
+            * (s.grains.position(s.contacts.node(contact, 0, k), factor)
+                + s.grains.position(s.contacts.node(contact, 1, k), factor)));
+    return middle;
+}
+
+Vector normal_of(const std::vector<Vector>& corners)
+{
+    Vector twice;
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+        twice = twice + cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
+    const double size = norm(twice);
+    return size > 0.0 ? (1.0 / size) * twice : Vector {};
+}
+
+Vector contact_normal(const SolidState& s, int contact)
+{
+    return normal_of(middle_face(s, contact));
+}
+
+FaceFrame contact_frame(const SolidState& s, int contact)
+{
+    return face_frame(middle_face(s, contact), { 0, s.contacts.line[s.contacts.slot[contact]] });
+}
+
+Vector point_place(
+    const FaceContacts& contacts, int contact, int point, const std::vector<Vector>& middle)
+{
+    Vector at;
+    for (std::size_t k = 0; k < middle.size(); ++k)
+        at = at + contacts.share(contact, point, static_cast<int>(k)) * middle[k];
+    return at;
+}
+
+Vector contact_middle(const SolidState& s, int contact)
+{
+    const std::vector<Vector> middle = middle_face(s, contact);
+    Vector sum;
+    for (int p = 0; p < s.contacts.points_of(contact); ++p)
+        sum = sum + s.contacts.area(contact, p) * point_place(s.contacts, contact, p, middle);
+    return (1.0 / contact_area(s.contacts, contact)) * sum;
+}
+
+Vector area_vector(const SolidState& s, int triangle)
+{
+    std::array<Vector, 3> r;
+    for (int k = 0; k < 3; ++k)
+        r[k] = space_vector(s.grains.reference, s.surface.nodes[triangle][k]);
+    return 0.5 * cross(r[1] - r[0], r[2] - r[0]);
+}
+
+double contact_area(const FaceContacts& contacts, int contact)
+{
+    double area = 0.0;
+    for (int p = 0; p < contacts.points_of(contact); ++p)
+        area += contacts.area(contact, p);
+    return area;
+}
+
+std::vector<FacePlace> places_of(const SolidState& s, int contact)
+{
+    const FaceContacts& c = s.contacts;
+    std::vector<FacePlace> places(c.points_of(contact));
+    const std::vector<Vector> middle = middle_face(s, contact);
+    if (!(norm(normal_of(middle)) > 0.0)) return places;
+    const FaceFrame frame = face_frame(middle, { 0, c.line[c.slot[contact]] });
+    std::vector<Vector> apart;
+    for (int k = 0; k < c.corners_of(contact); ++k)
+        apart.push_back(space_vector(s.grains.displacement, c.node(contact, 1, k))
+            - space_vector(s.grains.displacement, c.node(contact, 0, k)));
+    for (std::size_t p = 0; p < places.size(); ++p) {
+        const Vector jump = point_place(c, contact, static_cast<int>(p), apart);
+        places[p] = { dot(jump, frame.normal),
+            { dot(jump, frame.first), dot(jump, frame.second) } };
+    }
+    return places;
+}
+
+FaceTraction traction_of(const FaceContacts& contacts, int contact, int point, FacePlace place)
+{
+    return traction_at(contacts.law_of(contact), place, contacts.point_state(contact, point));
+}
+
+FaceTraction traction_of(const SolidState& s, int contact, int point)
+{
+    return traction_of(s.contacts, contact, point, places_of(s, contact)[point]);
+}
+
+double mean_opening(const SolidState& s, int contact)
+{
+    const std::vector<FacePlace> places = places_of(s, contact);
+    double sum = 0.0;
+    for (std::size_t p = 0; p < places.size(); ++p)
+        sum += s.contacts.area(contact, static_cast<int>(p)) * places[p].opening;
+    return sum / contact_area(s.contacts, contact);
+}
+
+BondStiffness bond_stiffness(const FaceContacts& contacts, int contact)
+{
+    const LawParameters& law = contacts.law_of(contact);
+    const double area = contact_area(contacts, contact);
+    return { law.normal_stiffness * area, law.shear_stiffness * area };
+}
+
+std::vector<Vector> point_forces(const SolidState& s, int contact)
+{
+    std::vector<Vector> forces(s.contacts.points_of(contact));
+    if (!(norm(contact_normal(s, contact)) > 0.0)) return forces;
+    const FaceFrame frame = contact_frame(s, contact);
+    const std::vector<FacePlace> places = places_of(s, contact);
+    for (std::size_t p = 0; p < forces.size(); ++p) {
+        const int point = static_cast<int>(p);
+        const FaceTraction t = traction_of(s.contacts, contact, point, places[p]);
+        // in tension the second grain is pulled back to the first
+        forces[p] = -s.contacts.area(contact, point)
+            * (t.normal * frame.normal + t.shear.x * frame.first + t.shear.y * frame.second);
+    }
+    return forces;
+}
+
+Vector contact_force(const SolidState& s, int contact)
+{
+    Vector sum;
+    for (const Vector& force : point_forces(s, contact))
+        sum = sum + force;
+    return sum;
+}
+
+SpaceResultant resultant_on(const SolidState& s, int grain)
+{
+    const Grains& grains = s.grains;
+    const int centre = grains.centre(grain);
+    const Vector middle = grains.position(centre);
+    SpaceResultant sum;
+    for (int n = 0; n < grains.nodes_of(grain); ++n) {
+        const int node = grains.node(grain, n);
+        // the centre of a rigid grain holds the sum of the others
+        if (node == centre && grains.is_rigid(grain)) continue;
+        const Vector force = space_vector(grains.force, node);
+        sum.force = sum.force + force;
+        sum.moment = sum.moment + cross(grains.position(node) - middle, force);
+    }
+    return sum;
+}
+
+Vector node_velocity(const SolidState& s, int grain, int node)
+{
+    if (s.bodies.empty()) return space_vector(s.grains.velocity, node);
+    const int centre = s.grains.centre(grain);
+    return space_vector(s.grains.velocity, centre)
+        + cross(s.bodies[grain].spin, s.grains.position(node) - s.grains.position(centre));
+}
+
+SpaceTensor sum_of(const SpaceTensor& a, double factor, const SpaceTensor& b)
+{
+    return { a.xx + factor * b.xx, a.yy + factor * b.yy, a.zz + factor * b.zz, a.yz + factor * b.yz,
+        a.xz + factor * b.xz, a.xy + factor * b.xy };
+}
+
+SpaceTensor stress_by_forces(const SolidState& s, int grain, double volume)
+{
+    SpaceTensor total {};
+    const Vector centre = s.grains.position(s.grains.centre(grain));
+    for (int n = 0; n < s.grains.vertices_of(grain); ++n) {
+        const int node = s.grains.node(grain, n);
+        const Vector a = s.grains.position(node) - centre;
+        const Vector b = space_vector(s.grains.force, node);
+        total = sum_of(total, 1.0 / volume,
+            { a.x * b.x, a.y * b.y, a.z * b.z, 0.5 * (a.y * b.z + a.z * b.y),
+                0.5 * (a.x * b.z + a.z * b.x), 0.5 * (a.x * b.y + a.y * b.x) });
+    }
+    return total;
+}
+
+}  // namespace flexpm

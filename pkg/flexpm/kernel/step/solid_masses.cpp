@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/step/solid_masses.hpp>
+
+#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/fem/tetrahedron.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
+#include <flexpm/kernel/parts/solid_plates.hpp>
+#include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flexpm {
+
+namespace {
+
+double sum_of_sizes(Vector a) { return std::fabs(a.x) + std::fabs(a.y) + std::fabs(a.z); }
+
+/// Bound of the largest singular value of a block: the mean of its largest row and column sums.
+double norm_of(const SpaceGradient& k)
+{
+    const double rows = std::max({ sum_of_sizes(k.x), sum_of_sizes(k.y), sum_of_sizes(k.z) });
+    const double columns = std::max({ sum_of_sizes({ k.x.x, k.y.x, k.z.x }),
+        sum_of_sizes({ k.x.y, k.y.y, k.z.y }), sum_of_sizes({ k.x.z, k.y.z, k.z.z }) });
+    return std::sqrt(rows * columns);
+}
+
+void add_tetrahedra(const SolidState& s, int block, Array<double>& bound)
+{
+    const Grains& grains = s.grains;
+    const int nodes = grains.group(block).nodes, origin = grains.block_nodes[block];
+    const auto c =
+        load_rows<PlaneStiffness>(&grains.stiffness[block * row_count<PlaneStiffness> * lanes], 0);
+    const auto number = [&](int node) { return (node - origin) / grains.layout.node_stride; };
+    std::vector<SpaceGradient> rows(static_cast<std::size_t>(nodes) * nodes);
+    for_each_tetrahedron(s, block, [&](const TetrahedronShape& shape, std::array<int, 4> of) {
+        for (int i = 0; i < 4; ++i) {
+            for (int k = 0; k < 4; ++k) {
+                const SpaceGradient part = stiffness_block(shape, c, i, k);
+                SpaceGradient& sum = rows[number(of[i]) * nodes + number(of[k])];
+                sum = { sum.x + part.x, sum.y + part.y, sum.z + part.z };
+            }
+        }
+    });
+    const int first = grains.scalar_index(origin);
+    for (int i = 0; i < nodes; ++i)
+        for (int k = 0; k < nodes; ++k)
+            bound[first + i] += norm_of(rows[i * nodes + k]);
+}
+
+/// What one point does to a side: the sum of its shares, and of a rigid grain the arm over its
+/// radius.
+struct PointSide {
+    double size = 0.0;
+    double arm = 0.0;
+};
+
+PointSide point_side(const SolidState& s, int contact, int point, int side)
+{
+    const FaceContacts& c = s.contacts;
+    const int grain = c.pairs[contact][side];
+    PointSide result;
+    Vector place;
+    for (int k = 0; k < c.corners_of(contact); ++k) {
+        const double share = c.share(contact, point, k);
+        result.size += std::fabs(share);
+        place = place + share * space_vector(s.grains.reference, c.node(contact, side, k));
+    }
+    if (!s.grains.is_rigid(grain)) return result;
+    const Vector centre = space_vector(s.grains.reference, s.grains.centre(grain));
+    result.arm = norm(place - centre) / s.grains.radius[grain];
+    result.size = 1.0 + result.arm;
+    return result;
+}
+
+void add_point(const SolidState& s, int contact, int point, SolidBound& bound)
+{
+    const FaceContacts& c = s.contacts;
+    const LawParameters& law = c.law_of(contact);
+    const double stiffness = std::max(law.normal_stiffness, law.shear_stiffness);
+    const PointSide sides[2] = { point_side(s, contact, point, 0),
+        point_side(s, contact, point, 1) };
+    const double all = c.area(contact, point) * stiffness * (sides[0].size + sides[1].size);
+    for (int side = 0; side < 2; ++side) {
+        const int grain = c.pairs[contact][side];
+        if (s.grains.is_rigid(grain)) {
+            const double r = s.grains.radius[grain];
+            bound.node[s.grains.scalar_index(s.grains.centre(grain))] += all;
+            bound.turn[grain] += r * r * sides[side].arm * all;
+            continue;
+        }
+        for (int k = 0; k < c.corners_of(contact); ++k) {
+            bound.node[s.grains.scalar_index(c.node(contact, side, k))] +=
+                std::fabs(c.share(contact, point, k)) * all;
+        }
+    }
+}
+
+/// A contact of a plate, which gives way itself if a load moves it.
+void add_touch(const SolidState& s, const Plate& plate, int index, SolidBound& bound)
+{
+    const int triangle = plate.facets[index], grain = s.surface.grain[triangle];
+    const double sides = plate.loaded ? 2.0 : 1.0;
+    if (!s.grains.is_rigid(grain)) {
+        for (int k = 0; k < 3; ++k)
+            bound.node[s.grains.scalar_index(s.surface.nodes[triangle][k])] +=
+                3.0 * corner_share(plate, index, k) * (sides * point_stiffness(plate, index) / 3.0);
+        return;
+    }
+    const double r = s.grains.radius[grain];
+    Vector place;
+    for (int k = 0; k < 3; ++k)
+        place = place
+            + corner_share(plate, index, k)
+                * space_vector(s.grains.reference, s.surface.nodes[triangle][k]);
+    const double arm = norm(place - space_vector(s.grains.reference, s.grains.centre(grain))) / r;
+    const double all = point_stiffness(plate, index) * (sides + arm);
+    bound.node[s.grains.scalar_index(s.grains.centre(grain))] += all;
+    bound.turn[grain] += r * r * arm * all;
+}
+
+/// Stiffness that a plate feels as it moves against rigid grains that move and turn.
+double bound_of(const Plate& plate)
+{
+    double sum = 0.0;
+    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
+        sum += 3.0 * point_stiffness(plate, i);
+    return sum;
+}
+
+/// Call visit(index) for the mass of each node that has one.
+template <class Visit> void for_each_mass(const Grains& grains, Visit visit)
+{
+    for (int g = 0; g < grains.count; ++g) {
+        if (grains.is_rigid(g)) {
+            visit(grains.scalar_index(grains.centre(g)));
+            continue;
+        }
+        for (int n = 0; n < grains.nodes_of(g); ++n)
+            visit(grains.scalar_index(grains.node(g, n)));
+    }
+}
+
+/// A rigid grain that nothing touches, or that no force turns, gets what one contact of its size
+/// would ask for, so that its masses are finite.
+void complete_rigid(const SolidState& s, SolidBound& bound)
+{
+    for (std::size_t g = 0; g < bound.turn.size(); ++g) {
+        const int grain = static_cast<int>(g);
+        const double square = s.grains.radius[g] * s.grains.radius[g];
+        double& node = bound.node[s.grains.scalar_index(s.grains.centre(grain))];
+        if (node == 0.0) node = s.contacts.laws.front().normal_stiffness * square;
+        bound.turn[g] = std::max(bound.turn[g], 0.01 * square * node);
+    }
+}
+
+SpaceTensor times(double factor, const SpaceTensor& t)
+{
+    return { factor * t.xx, factor * t.yy, factor * t.zz, factor * t.yz, factor * t.xz,
+        factor * t.xy };
+}
+
+/// Mass of a rigid grain to its centre, and its inertia.
+void set_real_body(SolidState& s, int grain)
+{
+    const SolidMass whole = real_mass(s, grain);
+    s.bodies[grain].inertia = whole.inertia;
+    s.grains.inverse_mass[s.grains.scalar_index(s.grains.centre(grain))] = 1.0 / whole.mass;
+}
+
+}  // namespace
+
+SolidBound stiffness_bound(const SolidState& s)
+{
+    SolidBound bound { Array<double>(s.grains.inverse_mass.size(), 0.0),
+        std::vector<double>(s.bodies.size(), 0.0) };
+    for (int block = 0; block < s.grains.blocks(); ++block)
+        if (!s.grains.group(block).rigid) add_tetrahedra(s, block, bound.node);
+    for (int c = 0; c < s.contacts.count; ++c)
+        for (int p = 0; p < s.contacts.points_of(c); ++p)
+            add_point(s, c, p, bound);
+    for (const Plate& plate : s.plates)
+        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
+            add_touch(s, plate, i, bound);
+    complete_rigid(s, bound);
+    return bound;
+}
+
+void scale_masses(SolidState& s, double damping, double dt)
+{
+    check_damping(damping);
+    check_positive("time step", dt, "s");
+    const SolidBound bound = stiffness_bound(s);
+    const double factor = mass_margin * (1.0 + damping) * dt * dt / 4.0;
+    for_each_mass(
+        s.grains, [&](int i) { s.grains.inverse_mass[i] = 1.0 / (factor * bound.node[i]); });
+    for (Plate& plate : s.plates)
+        if (plate.loaded) plate.mass = factor * bound_of(plate);
+    for (std::size_t g = 0; g < s.bodies.size(); ++g) {
+        const double i = factor * bound.turn[g];
+        s.bodies[g].inertia = { i, i, i, 0.0, 0.0, 0.0 };
+    }
+}
+
+SolidMass real_mass(const SolidState& s, int grain)
+{
+    const double density = s.grains.elastic[s.grains.material[grain]].density;
+    const Vector centre = space_vector(s.grains.reference, s.grains.centre(grain));
+    double volume = 0.0;
+    SpaceTensor sum {};
+    for_each_tetrahedron(
+        s, s.grains.block_of(grain), [&](const TetrahedronShape& t, std::array<int, 4> nodes) {
+            std::array<Vector, 4> r;
+            for (int k = 0; k < 4; ++k)
+                r[k] = space_vector(s.grains.reference, nodes[k]) - centre;
+            const SpaceTensor m = second_moments(r[0], r[1], r[2], r[3]);
+            sum = { sum.xx + m.xx, sum.yy + m.yy, sum.zz + m.zz, sum.yz + m.yz, sum.xz + m.xz,
+                sum.xy + m.xy };
+            volume += t.volume;
+        });
+    return { density * volume, times(density, inertia_of(sum)) };
+}
+
+void set_real_masses(SolidState& s)
+{
+    Array<double> mass(s.grains.inverse_mass.size(), 0.0);
+    for (int g = 0; g < s.grains.count; ++g) {
+        const double density = s.grains.elastic[s.grains.material[g]].density;
+        if (s.grains.is_rigid(g)) {
+            set_real_body(s, g);
+            continue;
+        }
+        for_each_tetrahedron(
+            s, s.grains.block_of(g), [&](const TetrahedronShape& t, std::array<int, 4> nodes) {
+                for (int n : nodes)
+                    mass[s.grains.scalar_index(n)] += 0.25 * density * t.volume;
+            });
+    }
+    for_each_mass(s.grains, [&](int i) {
+        if (mass[i] > 0.0) s.grains.inverse_mass[i] = 1.0 / mass[i];
+    });
+}
+
+double stable_step(const SolidState& s, double damping)
+{
+    check_damping(damping);
+    const SolidBound bound = stiffness_bound(s);
+    double most = 0.0;  // of stiffness / mass
+    for_each_mass(
+        s.grains, [&](int i) { most = std::max(most, bound.node[i] * s.grains.inverse_mass[i]); });
+    for (std::size_t g = 0; g < s.bodies.size(); ++g)
+        most = std::max(most, bound.turn[g] / least_moment(s.bodies[g].inertia));
+    return 2.0 / std::sqrt(mass_margin * (1.0 + damping) * most);
+}
+
+}  // namespace flexpm

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  One step of a specimen in space: step.hpp for deformable polyhedral grains.
+#pragma once
+
+#include <flexpm/kernel/assembly/solid_plan.hpp>
+#include <flexpm/kernel/step/step.hpp>
+
+namespace flexpm {
+
+/// Find the forces at the present places, and the states of contact points there, without a step.
+/// @throws std::invalid_argument  if a contact has no middle face there
+void find_forces(SolidState& s);
+
+/// Move all nodes, find the forces at the new places, and integrate the velocities. All sums run in
+/// a fixed order: results do not depend on the number of threads.
+///
+/// @throws std::invalid_argument  if an option is out of range or prepare_step() has not been
+///         called
+/// @throws std::runtime_error     if a contact has no middle face, since its corners are at one
+///         place or no numbers any more
+void step(SolidState& s, const StepOptions& options);
+
+}  // namespace flexpm
