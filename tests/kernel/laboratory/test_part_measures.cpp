@@ -168,35 +168,35 @@ TEST_CASE("The first value of a row that is not finite is named")
 TEST_CASE("Gauges read what their nodes and plates move, each on its side of a notch")
 {
     Assembly a = grains();
-    const GaugePoints gauge = gauge_points(a, { 0.004, 0.0 }, { 0.016, 0.0 });
-    CHECK(gauge_length(a, gauge) == Approx(0.012).margin(2e-3));
+    const GaugePoints gauge = gauge_points(a.grains, { 0.004, 0.0 }, { 0.016, 0.0 });
+    CHECK(gauge_length(a.grains, gauge) == Approx(0.012).margin(2e-3));
     // two places at one corner of two grains take a node of each grain
     const int e = 0;
     const Point corner = vector_at(a.grains.reference, a.contacts.node(e, 0, 0));
     const Point aside = 1e-4 * bonded_normal(a, e);
-    const GaugePoints notch = gauge_points(a, corner - aside, corner + aside);
+    const GaugePoints notch = gauge_points(a.grains, corner - aside, corner + aside);
     CHECK(grain_node(a.grains, notch.first).grain != grain_node(a.grains, notch.second).grain);
     for_each_component(a.grains, [&](int i) {
         a.grains.displacement[i] =
             a.grains.layout.axis_of(i) == 0 ? 1e-3 * a.grains.reference[i] : 0.0;
     });
-    const double opening = gauge_opening(a.grains.displacement, gauge, { 1.0, 0.0 });
-    CHECK(opening == Approx(1e-3 * gauge_length(a, gauge)).epsilon(0.05));
-    CHECK(gauge_opening(a.grains.displacement, gauge, { 0.0, 1.0 }) == 0.0);
+    const double opening = gauge_opening(a.grains, a.grains.displacement, gauge, { 1.0, 0.0 });
+    CHECK(opening == Approx(1e-3 * gauge_length(a.grains, gauge)).epsilon(0.05));
+    CHECK(gauge_opening(a.grains, a.grains.displacement, gauge, { 0.0, 1.0 }) == 0.0);
     a.plates.resize(1);
     a.plates[0].displacement = { 2.0, 3.0 };
     CHECK(plate_way(a, 0, { 0.0, 1.0 }) == 3.0);
     CHECK_THROWS_WITH(plate_way(a, 1, { 0.0, 1.0 }), Catch::Contains("plate"));
-    CHECK_THROWS_WITH(gauge_opening(a.grains.displacement, { 0, 1 << 30 }, { 1.0, 0.0 }),
+    CHECK_THROWS_WITH(gauge_opening(a.grains, a.grains.displacement, { 0, 1 << 30 }, { 1.0, 0.0 }),
         Catch::Contains("node"));
-    CHECK_THROWS_WITH(gauge_points(a, { 0.0, 0.0 }, { 0.0, 0.0 }), Catch::Contains("length"));
+    CHECK_THROWS_WITH(gauge_points(a.grains, { 0.0, 0.0 }, { 0.0, 0.0 }), Catch::Contains("length"));
 }
 
 TEST_CASE("A section reads the mean way of the nodes in its band")
 {
     Assembly a = grains(GENERATE(false, true));
     const Point up = { 0.0, 1.0 };
-    const Section found = section_at(a, 0.01, up, 0.002);
+    const Section found = section_at(a.grains, 0.01, up, 0.002);
     REQUIRE(found.nodes.size() > 10);
     CHECK(found.place == Approx(0.01).margin(5e-4));
     for (int n : found.nodes)
@@ -206,18 +206,18 @@ TEST_CASE("A section reads the mean way of the nodes in its band")
         a.grains.displacement[i] =
             a.grains.layout.axis_of(i) == 1 ? 1e-3 * a.grains.reference[i] : 0.0;
     });
-    CHECK(mean_way(a.grains.displacement, found.nodes, up)
+    CHECK(mean_way(a.grains, a.grains.displacement, found.nodes, up)
         == Approx(1e-3 * found.place).epsilon(1e-12));
-    CHECK(mean_way(a.grains.displacement, found.nodes, { 1.0, 0.0 }) == 0.0);
+    CHECK(mean_way(a.grains, a.grains.displacement, found.nodes, { 1.0, 0.0 }) == 0.0);
     // a grain that has been erased has no nodes any more
     const int gone = grain_node(a.grains, found.nodes.front()).grain;
     a.grains.erased[gone] = 1;
-    for (int n : section_at(a, 0.01, up, 0.002).nodes)
+    for (int n : section_at(a.grains, 0.01, up, 0.002).nodes)
         CHECK(grain_node(a.grains, n).grain != gone);
-    CHECK_THROWS_WITH(section_at(a, 5.0, up, 0.001), Catch::Contains("section"));
-    CHECK_THROWS_WITH(mean_way(a.grains.displacement, {}, up), Catch::Contains("at least 1"));
-    CHECK_THROWS_WITH(mean_way(a.grains.displacement, { -1 }, up), Catch::Contains("node"));
-    CHECK_THROWS_WITH(mean_way(a.grains.displacement, { 1 << 30 }, up), Catch::Contains("node"));
+    CHECK_THROWS_WITH(section_at(a.grains, 5.0, up, 0.001), Catch::Contains("section"));
+    CHECK_THROWS_WITH(mean_way(a.grains, a.grains.displacement, {}, up), Catch::Contains("at least 1"));
+    CHECK_THROWS_WITH(mean_way(a.grains, a.grains.displacement, { -1 }, up), Catch::Contains("node"));
+    CHECK_THROWS_WITH(mean_way(a.grains, a.grains.displacement, { 1 << 30 }, up), Catch::Contains("node"));
 }
 
 TEST_CASE("The scales of a bar between parts are those of its length and modulus")

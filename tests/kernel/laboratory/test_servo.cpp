@@ -155,10 +155,10 @@ TEST_CASE("What a loading gives to a measure is what the measure then grows by")
     const bool rigid = GENERATE(false, true);
     Squeezed s = squeezed(rigid);
     const Assembly& a = s.a;
-    const GaugePoints gauge = gauge_points(a, { 0.004, 0.02 }, { 0.016, 0.02 });
+    const GaugePoints gauge = gauge_points(a.grains, { 0.004, 0.02 }, { 0.016, 0.02 });
     const Point across = { 1.0, 0.0 }, down = { 0.0, -1.0 };
     const Array<double> field = loading_field(a);
-    const double rates[] = { gauge_opening(field, gauge, across),
+    const double rates[] = { gauge_opening(a.grains, field, gauge, across),
         lateral_strain(a, Sense::compression, field), plate_rate(a, s.parts.driven[0], down, field),
         part_load_rate(a, s.parts, field) };
     StepOptions options;
@@ -167,7 +167,7 @@ TEST_CASE("What a loading gives to a measure is what the measure then grows by")
     for (int i = 0; i < steps; ++i)
         step(s.a, options);
     const auto& moved = a.grains.displacement;
-    const double grown[] = { gauge_opening(moved, gauge, across),
+    const double grown[] = { gauge_opening(a.grains, moved, gauge, across),
         lateral_strain(a, Sense::compression, moved), plate_way(a, s.parts.driven[0], down),
         part_load(a, s.parts) };
     for (int i = 0; i < 4; ++i)

@@ -6,7 +6,7 @@
 #include <flexpm/kernel/measure/solid_balance.hpp>
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
-#include <flexpm/kernel/laboratory/solid_gauge.hpp>
+#include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 
@@ -189,11 +189,11 @@ TEST_CASE("A plate that no load moves takes none", "[solids]")
         solid_part_frame(s, { {}, {}, right, 1.0, 1.0 }), Catch::Contains("driven parts = 0"));
     CHECK_THROWS_WITH(plate_way(s, 9, up), Catch::Contains("plate of a gauge = 9"));
     const Vector middle = 0.5 * p.solid.high;
-    const GaugePoints gauge = gauge_points(s, middle - 0.5 * a * up, middle + 0.5 * a * up);
+    const GaugePoints gauge = gauge_points(s.grains, middle - 0.5 * a * up, middle + 0.5 * a * up);
     CHECK(gauge.first != gauge.second);
-    CHECK(gauge_length(s, gauge) < 2.0 * a);
-    CHECK(opening_in_space(s.grains.displacement, gauge, up) == 0.0);
-    CHECK_THROWS_WITH(gauge_points(s, middle, middle), Catch::Contains("length of a gauge = 0 m"));
+    CHECK(gauge_length(s.grains, gauge) < 2.0 * a);
+    CHECK(gauge_opening(s.grains, s.grains.displacement, gauge, up) == 0.0);
+    CHECK_THROWS_WITH(gauge_points(s.grains, middle, middle), Catch::Contains("length of a gauge = 0 m"));
 }
 
 namespace {

@@ -3,7 +3,7 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
-#include <flexpm/kernel/laboratory/solid_gauge.hpp>
+#include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/parts/solid_jaws.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>

@@ -4,8 +4,10 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/parts/plate_contact.hpp>
+#include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,20 +15,23 @@ namespace flexpm {
 
 namespace {
 
-Point reference_of(const Assembly& a, int node) { return a.grains.reference_at(node); }
+Vector reference_of(const Grains& grains, int node)
+{
+    return grains.vector(grains.reference, node);
+}
 
 /// Node nearest to a place, of the grains whose centres are nearer to it than to another place.
-int nearest_node(const Assembly& a, Point place, Point other)
+int nearest_node(const Grains& grains, Vector place, Vector other)
 {
     double least = std::numeric_limits<double>::infinity();
     int nearest = -1;
-    for (int g = 0; g < a.grains.count; ++g) {
-        if (a.grains.erased[g]) continue;
-        const Point centre = reference_of(a, a.grains.centre(g));
-        if (norm(centre - place) > norm(centre - other)) continue;
-        for (int k = 0; k < a.grains.nodes_of(g); ++k) {
-            const int node = a.grains.node(g, k);
-            const double distance = norm(reference_of(a, node) - place);
+    for (int g = 0; g < grains.count; ++g) {
+        if (grains.erased[g]) continue;
+        const Vector centre = reference_of(grains, grains.centre(g));
+        if (grains.length(centre - place) > grains.length(centre - other)) continue;
+        for (int k = 0; k < grains.nodes_of(g); ++k) {
+            const int node = grains.node(g, k);
+            const double distance = grains.length(reference_of(grains, node) - place);
             if (!(distance < least)) continue;
             least = distance;
             nearest = node;
@@ -37,82 +42,73 @@ int nearest_node(const Assembly& a, Point place, Point other)
     return nearest;
 }
 
-void need_node(const Array<double>& moved, int node)
+Vector way_of(const Grains& grains, const Array<double>& moved, int node)
 {
-    const int last = static_cast<int>(moved.size()) - lanes;
-    if (node < 0 || node >= last)
+    const int last = static_cast<int>(moved.size()) - 1;
+    if (node < 0 || node > last || grains.component(node, grains.layout.dimension - 1) > last)
         refuse("node of a gauge", node, "", "must be one of gauge_points() or section_at()");
+    return grains.vector(moved, node);
 }
 
-}  // namespace
-
-GaugePoints gauge_points(const Assembly& a, Point first, Point second)
+const Plate& plate_of(const BondedState& s, int plate)
 {
-    check_positive("length of a gauge", norm(second - first), "m");
-    return { nearest_node(a, first, second), nearest_node(a, second, first) };
-}
-
-double gauge_length(const Assembly& a, const GaugePoints& gauge)
-{
-    return norm(reference_of(a, gauge.second) - reference_of(a, gauge.first));
-}
-
-namespace {
-
-const Plate& plate_of(const Assembly& a, int plate)
-{
-    if (plate < 0 || plate >= static_cast<int>(a.plates.size()))
+    if (plate < 0 || plate >= static_cast<int>(s.plates.size()))
         refuse("plate of a gauge", plate, "", "must be the number of a plate; add one first");
-    return a.plates[plate];
+    return s.plates[plate];
+}
+
+/// Velocity at which the spring of a soft machine gives way with the motion of the loading [m/s].
+double give_rate(const Assembly& a, const Plate& p, const Array<double>& velocity)
+{
+    return plate_lag(a, p, p.velocity, &velocity).give;
+}
+double give_rate(const SolidState& s, const Plate& p, const Array<double>& velocity)
+{
+    return rates_of(s, p, velocity).give;
+}
+
+template <class State>
+double rate_of_plate(const State& s, int plate, Vector direction, const Array<double>& velocity)
+{
+    const double rate = crosshead_rate(s, plate, direction);
+    const Plate& p = plate_of(s, plate);
+    if (p.loaded || p.machine_stiffness == 0.0) return rate;
+    return rate - give_rate(s, p, velocity) * dot(p.normal, direction);
 }
 
 }  // namespace
 
-double plate_way(const Assembly& a, int plate, Vector direction)
+GaugePoints gauge_points(const Grains& grains, Vector first, Vector second)
 {
-    return dot(plate_of(a, plate).displacement, direction);
+    check_positive("length of a gauge", grains.length(second - first), "m");
+    return { nearest_node(grains, first, second), nearest_node(grains, second, first) };
 }
 
-double crosshead_way(const Assembly& a, int plate, Vector direction)
+double gauge_length(const Grains& grains, const GaugePoints& gauge)
 {
-    return dot(crosshead_displacement(plate_of(a, plate)), direction);
+    return grains.length(reference_of(grains, gauge.second) - reference_of(grains, gauge.first));
 }
 
-double crosshead_rate(const Assembly& a, int plate, Vector direction)
+double gauge_opening(
+    const Grains& grains, const Array<double>& moved, const GaugePoints& gauge, Vector direction)
 {
-    const Plate& p = plate_of(a, plate);
-    return dot(p.loaded ? a.loading.of_plate(plate).velocity : p.velocity, direction);
+    return dot(way_of(grains, moved, gauge.second) - way_of(grains, moved, gauge.first), direction);
 }
 
-double plate_rate(const Assembly& a, int plate, Vector direction, const Array<double>& velocity)
+bool is_erased(const Grains& grains, int node)
 {
-    const double rate = crosshead_rate(a, plate, direction);
-    const Plate& p = plate_of(a, plate);
-    if (p.loaded || p.machine_stiffness == 0.0) return rate;
-    return rate - plate_lag(a, p, p.velocity, &velocity).give * dot(p.normal, direction);
+    way_of(grains, grains.displacement, node);  // it is one
+    return grains.erased[grain_node(grains, node).grain] != 0;
 }
 
-double gauge_opening(const Array<double>& moved, const GaugePoints& gauge, Vector direction)
-{
-    for (int node : { gauge.first, gauge.second })
-        need_node(moved, node);
-    return dot(vector_at(moved, gauge.second) - vector_at(moved, gauge.first), direction);
-}
-
-bool is_erased(const Assembly& a, int node)
-{
-    need_node(a.grains.displacement, node);
-    return a.grains.erased[grain_node(a.grains, node).grain] != 0;
-}
-
-Section section_at(const Assembly& a, double place, Vector direction, double half_width)
+Section section_at(const Grains& grains, double place, Vector direction, double half_width)
 {
     Section found;
-    for (int g = 0; g < a.grains.count; ++g) {
-        if (a.grains.erased[g]) continue;
-        for (int k = 0; k < a.grains.nodes_of(g); ++k) {
-            const int node = a.grains.node(g, k);
-            const double along = dot(reference_of(a, node), direction);
+    for (int g = 0; g < grains.count; ++g) {
+        if (grains.erased[g]) continue;
+        for (int k = 0; k < grains.nodes_of(g); ++k) {
+            const int node = grains.node(g, k);
+            const double along = dot(reference_of(grains, node), direction);
             if (!(std::fabs(along - place) <= half_width)) continue;
             found.nodes.push_back(node);
             found.place += along;
@@ -123,15 +119,66 @@ Section section_at(const Assembly& a, double place, Vector direction, double hal
     return found;
 }
 
-double mean_way(const Array<double>& moved, const std::vector<int>& nodes, Vector direction)
+double mean_way(const Grains& grains, const Array<double>& moved, const std::vector<int>& nodes,
+    Vector direction)
 {
     if (nodes.empty()) refuse("nodes of a gauge", 0.0, "", "must be at least 1");
     double sum = 0.0;
-    for (int node : nodes) {
-        need_node(moved, node);
-        sum += dot(vector_at(moved, node), direction);
-    }
+    for (int node : nodes)
+        sum += dot(way_of(grains, moved, node), direction);
     return sum / static_cast<double>(nodes.size());
+}
+
+double plate_way(const BondedState& s, int plate, Vector direction)
+{
+    return dot(plate_of(s, plate).displacement, direction);
+}
+
+double crosshead_way(const BondedState& s, int plate, Vector direction)
+{
+    return dot(crosshead_displacement(plate_of(s, plate)), direction);
+}
+
+double crosshead_rate(const BondedState& s, int plate, Vector direction)
+{
+    const Plate& p = plate_of(s, plate);
+    return dot(p.loaded ? s.loading.of_plate(plate).velocity : p.velocity, direction);
+}
+
+double machine_energy(const BondedState& s, int plate)
+{
+    return machine_energy(plate_of(s, plate));
+}
+
+double plate_angle(const BondedState& s, int plate)
+{
+    const Vector turn = plate_of(s, plate).turn;
+    return s.grains.layout.dimension == 2 ? turn.z : norm(turn);
+}
+
+double plate_rate(const Assembly& a, int plate, Vector direction, const Array<double>& velocity)
+{
+    return rate_of_plate(a, plate, direction, velocity);
+}
+
+double plate_rate(const SolidState& s, int plate, Vector direction, const Array<double>& velocity)
+{
+    return rate_of_plate(s, plate, direction, velocity);
+}
+
+double contact_angle(const SolidState& s, int plate)
+{
+    const Plate& read = plate_of(s, plate);
+    if (read.jaw_radius == 0.0) return 0.0;
+    double low = read.position.y, high = low;
+    for (int t : read.facets) {
+        for (int n : s.surface.nodes[t]) {
+            const double y = reference_of(s.grains, n).y;
+            low = std::min(low, y);
+            high = std::max(high, y);
+        }
+    }
+    return pressed_area(read) / (read.disc_radius * (high - low));
 }
 
 }  // namespace flexpm

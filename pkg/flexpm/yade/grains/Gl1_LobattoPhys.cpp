@@ -69,7 +69,7 @@ namespace {
 	flexpm::Line    branchOf(const flexpm::Assembly& a, int place) { return flexpm::branch_line(a, place, Gl1_LaguerreCell::scale); }
 	flexpm::Segment branchOf(const flexpm::SolidState& s, int place)
 	{
-		const auto centre = [&](int grain) { return flexpm::s.grains.position(s.grains.centre(grain), Gl1_LaguerreCell::scale); };
+		const auto centre = [&](int grain) { return s.grains.position(s.grains.centre(grain), Gl1_LaguerreCell::scale); };
 		return { centre(s.contacts.pairs[place][0]), centre(s.contacts.pairs[place][1]) };
 	}
 

@@ -173,7 +173,7 @@ py::list AxialRecorder::lostGauges() const
 	if (solver->solid()) return lost; // a solid keeps its grains
 	const auto& assembly = solver->current();
 	for (const auto& gauge : gauges)
-		if (gauge->lost(assembly)) lost.append(gauge->name);
+		if (gauge->lost(assembly.grains)) lost.append(gauge->name);
 	return lost;
 }
 

@@ -3,7 +3,6 @@
 
 #include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
-#include <flexpm/kernel/laboratory/solid_gauge.hpp>
 
 #include <algorithm>
 
@@ -15,81 +14,48 @@ Gauge::~Gauge() = default;
 
 Real Gauge::perLength(Real moved) const { return length > 0 ? moved / length : moved; }
 
-Real Gauge::way(const flexpm::Array<double>& moved) const
+Real Gauge::way(const flexpm::Grains& grains, const flexpm::Array<double>& moved) const
 {
-	const flexpm::Point along = { direction[0], direction[1] };
-	return nodes.empty() ? flexpm::gauge_opening(moved, { first, second }, along) : flexpm::mean_way(moved, nodes, along);
+	return nodes.empty() ? flexpm::gauge_opening(grains, moved, { first, second }, along()) : flexpm::mean_way(grains, moved, nodes, along());
 }
 
-Real Gauge::moved(const flexpm::Assembly& assembly) const
+Real Gauge::moved(const flexpm::BondedState& state) const
 {
-	const flexpm::Point along = { direction[0], direction[1] };
-	if (reads == "crosshead") return flexpm::crosshead_way(assembly, plate, along);
-	return plate >= 0 ? flexpm::plate_way(assembly, plate, along) : way(assembly.grains.displacement);
-}
-
-Real Gauge::moved(const flexpm::SolidState& solid) const
-{
-	const flexpm::Vector along = { direction[0], direction[1], direction[2] };
-	if (reads == "crosshead") return flexpm::crosshead_way(solid, plate, along);
-	return plate >= 0 ? flexpm::plate_way(solid, plate, along) : wayInSpace(solid.grains.displacement);
-}
-
-Real Gauge::wayInSpace(const flexpm::Array<double>& moved) const
-{
-	const flexpm::Vector along = { direction[0], direction[1], direction[2] };
-	return nodes.empty() ? flexpm::opening_in_space(moved, { first, second }, along) : flexpm::mean_way_in_space(moved, nodes, along);
-}
-
-Real Gauge::rate(const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const
-{
-	const flexpm::Vector along = { direction[0], direction[1], direction[2] };
-	if (isState()) return 0;
-	if (reads == "crosshead") return flexpm::crosshead_rate(solid, plate, along);
-	return perLength(plate >= 0 ? flexpm::plate_rate(solid, plate, along, velocity) : wayInSpace(velocity));
-}
-
-void Gauge::setZero(const flexpm::SolidState& solid)
-{
-	if (!isState()) zero = moved(solid);
-}
-
-Real Gauge::reading(const flexpm::SolidState& solid) const
-{
-	if (!isState()) return perLength(moved(solid) - zero);
-	if (reads == "angle") return flexpm::tilt(solid, plate);
-	return reads == "machine_energy" ? flexpm::machine_energy(solid, plate) : flexpm::contact_angle(solid, plate);
+	if (reads == "crosshead") return flexpm::crosshead_way(state, plate, along());
+	return plate >= 0 ? flexpm::plate_way(state, plate, along()) : way(state.grains, state.grains.displacement);
 }
 
 bool Gauge::isState() const { return reads == "machine_energy" || reads == "contact_angle" || reads == "angle"; }
 
-void Gauge::setZero(const flexpm::Assembly& assembly)
+void Gauge::setZero(const flexpm::BondedState& state)
 {
-	if (!isState()) zero = moved(assembly);
+	if (!isState()) zero = moved(state);
 }
 
-Real Gauge::reading(const flexpm::Assembly& assembly) const
+template <class State> Real Gauge::reading(const State& state) const
 {
-	if (!isState()) return perLength(moved(assembly) - zero);
-	flexpm::require_plate(assembly, plate);
-	const flexpm::Plate& read = assembly.plates[plate];
-	if (reads == "angle") return read.turn.z;
-	return reads == "contact_angle" ? flexpm::contact_angle(assembly, plate) : flexpm::machine_energy(read);
+	if (!isState()) return perLength(moved(state) - zero);
+	if (reads == "angle") return flexpm::plate_angle(state, plate);
+	return reads == "machine_energy" ? flexpm::machine_energy(state, plate) : flexpm::contact_angle(state, plate);
 }
 
-Real Gauge::rate(const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const
+template <class State> Real Gauge::rate(const State& state, const flexpm::Array<double>& velocity) const
 {
-	const flexpm::Point along = { direction[0], direction[1] };
 	if (isState()) return 0;
-	if (reads == "crosshead") return flexpm::crosshead_rate(assembly, plate, along);
-	return perLength(plate >= 0 ? flexpm::plate_rate(assembly, plate, along, velocity) : way(velocity));
+	if (reads == "crosshead") return flexpm::crosshead_rate(state, plate, along());
+	return perLength(plate >= 0 ? flexpm::plate_rate(state, plate, along(), velocity) : way(state.grains, velocity));
 }
 
-bool Gauge::lost(const flexpm::Assembly& assembly) const
+bool Gauge::lost(const flexpm::Grains& grains) const
 {
 	if (plate >= 0) return false;
-	const auto erased = [&](int node) { return flexpm::is_erased(assembly, node); };
+	const auto erased = [&](int node) { return flexpm::is_erased(grains, node); };
 	return nodes.empty() ? erased(first) || erased(second) : std::any_of(nodes.begin(), nodes.end(), erased);
 }
+
+template Real Gauge::reading(const flexpm::Assembly&) const;
+template Real Gauge::reading(const flexpm::SolidState&) const;
+template Real Gauge::rate(const flexpm::Assembly&, const flexpm::Array<double>&) const;
+template Real Gauge::rate(const flexpm::SolidState&, const flexpm::Array<double>&) const;
 
 } // namespace yade

@@ -14,26 +14,21 @@ public:
 	/// @throws std::runtime_error  if it names no node or plate of the assembly
 	/// Count from here on.
 	/// @throws std::runtime_error  as reading()
-	void setZero(const flexpm::Assembly& assembly);
+	void setZero(const flexpm::BondedState& state);
 	/// Opening or way, less that at its zero [m], or a strain [-], or what `reads` names.
-	Real reading(const flexpm::Assembly& assembly) const;
-	/// The same of a solid.
-	void setZero(const flexpm::SolidState& solid);
-	Real reading(const flexpm::SolidState& solid) const;
-	Real rate(const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const;
-	/// What the reading grows by in a second where nodes move at such velocities, and plates as the loading moves them.
-	Real rate(const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const;
+	template <class State> Real reading(const State& state) const;
+	/// Increase of the reading in a second where nodes move at such velocities, and plates as the loading moves them.
+	template <class State> Real rate(const State& state, const flexpm::Array<double>& velocity) const;
 	/// Whether a grain that it reads has been erased.
-	bool lost(const flexpm::Assembly& assembly) const;
+	bool lost(const flexpm::Grains& grains) const;
 
 private:
-	Real moved(const flexpm::Assembly& assembly) const;
-	Real moved(const flexpm::SolidState& solid) const;
+	flexpm::Vector along() const { return { direction[0], direction[1], direction[2] }; }
+	Real           moved(const flexpm::BondedState& state) const;
 	/// Whether it reads what the plate has now, not how far something has gone.
 	bool isState() const;
-	/// What nodes move that move so.
-	Real way(const flexpm::Array<double>& moved) const;
-	Real wayInSpace(const flexpm::Array<double>& moved) const;
+	/// Way of its nodes where nodes move so.
+	Real way(const flexpm::Grains& grains, const flexpm::Array<double>& moved) const;
 	Real perLength(Real moved) const;
 
 public:

@@ -54,13 +54,13 @@ void GrainSolver::setMachine(int plate, Real stiffness) { flexpm::set_machine(as
 
 py::tuple GrainSolver::gaugePoints(Vector3r first, Vector3r second)
 {
-	const auto gauge = flexpm::gauge_points(current(), { first[0], first[1] }, { second[0], second[1] });
-	return py::make_tuple(gauge.first, gauge.second, flexpm::gauge_length(assembly, gauge));
+	const auto gauge = flexpm::gauge_points(current().grains, { first[0], first[1] }, { second[0], second[1] });
+	return py::make_tuple(gauge.first, gauge.second, flexpm::gauge_length(assembly.grains, gauge));
 }
 
 py::tuple GrainSolver::sectionNodes(Real place, Vector3r direction, Real width)
 {
-	const auto section = flexpm::section_at(current(), place, { direction[0], direction[1] }, width / 2);
+	const auto section = flexpm::section_at(current().grains, place, { direction[0], direction[1] }, width / 2);
 	py::list   nodes;
 	for (int node : section.nodes)
 		nodes.append(node);

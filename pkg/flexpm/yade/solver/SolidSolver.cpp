@@ -5,7 +5,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/solid_beam.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
-#include <flexpm/kernel/laboratory/solid_gauge.hpp>
+#include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/parts/solid_jaws.hpp>
 #include <flexpm/kernel/topology/solid_loose.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
@@ -79,7 +79,7 @@ void SolidSolver::resetEnergyBalance()
 
 py::tuple SolidSolver::sectionNodes(Real place, Vector3r direction, Real width)
 {
-	const auto section = flexpm::section_at(state, place, { direction[0], direction[1], direction[2] }, width / 2);
+	const auto section = flexpm::section_at(state.grains, place, { direction[0], direction[1], direction[2] }, width / 2);
 	py::list   nodes;
 	for (int node : section.nodes)
 		nodes.append(node);
@@ -149,8 +149,8 @@ void SolidSolver::setMachine(int plate, Real stiffness) { flexpm::set_machine(st
 
 py::tuple SolidSolver::gaugePoints(Vector3r first, Vector3r second)
 {
-	const auto gauge = flexpm::gauge_points(state, { first[0], first[1], first[2] }, { second[0], second[1], second[2] });
-	return py::make_tuple(gauge.first, gauge.second, flexpm::gauge_length(state, gauge));
+	const auto gauge = flexpm::gauge_points(state.grains, { first[0], first[1], first[2] }, { second[0], second[1], second[2] });
+	return py::make_tuple(gauge.first, gauge.second, flexpm::gauge_length(state.grains, gauge));
 }
 
 py::tuple SolidSolver::elasticConstants()
@@ -194,7 +194,7 @@ py::tuple SolidSolver::nodePlaces(bool bonded)
 	const auto          nodes = flexpm::holdable_nodes(state);
 	std::vector<double> places;
 	for (int node : nodes) {
-		const auto p = bonded ? flexpm::space_vector(state.grains.reference, node) : flexpm::state.grains.position(node);
+		const auto p = bonded ? flexpm::space_vector(state.grains.reference, node) : state.grains.position(node);
 		places.insert(places.end(), { p.x, p.y, p.z });
 	}
 	return py::make_tuple(flexpm_bindings::copied(nodes, 0), flexpm_bindings::copied(places, 3));
