@@ -19,7 +19,10 @@ project = "flexpm"
 author = "The flexpm developers"
 copyright = author
 release = re.search(r'__version__ = "(.*)"', (PACKAGE / "flexpm" / "_version.py").read_text())[1]
-extensions = ["rooms", "yade_classes", "result_schema", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = [
+    *("availability", "result_schema", "rooms", "yade_classes"),
+    *("sphinx.ext.autodoc", "sphinx.ext.napoleon"),
+]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # docstrings say more than types
 graphviz_output_format = "svg"

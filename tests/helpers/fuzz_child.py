@@ -388,7 +388,8 @@ class Physics:
     def __call__(self, example: dict[str, Any]) -> dict[str, Any]:
         """Status of a run, and what of its result is no number; or its error."""
         import flexpm
-        from flexpm.specimens.space.any_spec import is_solid, spec_of
+        from flexpm.dimensions import is_solid
+        from flexpm.specimens.space.any_spec import spec_of
         from flexpm.specimens.space.specimen import SolidSpecimen
 
         solid = is_solid(example["specimen"]["kind"])

@@ -18,10 +18,10 @@ from pathlib import Path
 import pytest
 from fuzz_child import Child
 
+from flexpm.dimensions import is_solid
 from flexpm.kinds.model_names import BLOCK_MODELS
 from flexpm.kinds.pulse import WAVES
 from flexpm.kinds.registry import TESTS, kind_of
-from flexpm.specimens.space.any_spec import is_solid
 
 CASES, SOLID_CASES = (300, 100) if os.environ.get("HYPOTHESIS_PROFILE") == "night" else (10, 5)
 STATUSES = ("ok", "no_peak", "not_quasistatic", "diverged")

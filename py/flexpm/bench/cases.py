@@ -83,7 +83,7 @@ BUILDERS: dict[str, tuple[str, Builder]] = {
 
 def solid_builders(shape: str) -> dict[str, tuple[str, Builder]]:
     """Name, label and builder of each model that solids are tested with."""
-    models = next(kind.models_of(shape) for kind in KINDS.values() if shape in kind.solids)
+    models = next(kind.models_of(shape) for kind in KINDS.values() if shape in kind.variants)
     return {
         name: BUILDERS[name]
         if name in SPHERE_MODELS

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..dimensions import is_solid
 from ..errors import InputError, SimulationError
 from ..kinds.registry import TESTS, kind_of, names
 from ..materials.material import default_name
@@ -17,7 +18,6 @@ from ..models.options import MODELS
 from ..report import tables
 from ..require import NOT_NEGATIVE, require_known
 from ..runs.input_names import OWN_OPTIONS, ranges
-from ..specimens.space.any_spec import is_solid
 from ..studies.jobs import place_of
 from . import inputs, packings, terminal
 from . import options as cli_options

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, cast
 import click
 
 from .. import _plugin
+from ..dimensions import SOLIDS, is_solid, refused
 from ..errors import InputError
 from ..files import FolderLock, Table, output_folder
 from ..materials.material import Material, load, unused
@@ -21,7 +22,7 @@ from ..runs.input_names import PACKING, SIZE_NAMES, UNUSED, shape_of, with_unit
 from ..runs.output import refuse_other_kind
 from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
-from ..specimens.space.any_spec import SIZES, SOLIDS, AnySpec, is_solid
+from ..specimens.space.any_spec import SIZES, AnySpec
 from ..specimens.spec import SpecimenSpec
 from . import signals, terminal
 
@@ -253,13 +254,13 @@ _FILES = ("joints_file", "network_file")
 
 
 def _refuse_plane(shape: str) -> None:
-    """Refuse options of specimens of the plane beside a solid."""
+    """Refuse options of 2D specimens for a 3D one."""
     context = click.get_current_context()
     for name in ("thickness", "joints_file", "network_file", "points", "mesh"):
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
             value = context.params.get(name)
             told = with_unit(name.removesuffix("_file"), str(value) if name in _FILES else value)
-            raise InputError(f"{told}, must not be given for a {shape}; leave it out")
+            raise refused(f"{told}, must not be given for a {shape}", name.removesuffix("_file"))
 
 
 def refuse_packing() -> None:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..dimensions import SOLIDS
 from ..files import json_text, write_text
 from ..kinds.registry import ELASTIC, KINDS, names
 from ..report import tables
-from ..specimens.space.any_spec import SOLIDS
 from ..specimens.space.spec import SIZES, SolidSpec
 from . import inputs, terminal
 from . import options as cli_options
@@ -38,8 +38,9 @@ def _shape_options(shapes: Sequence[str], of: str) -> cli_options.Decorator:
     """Options that make a specimen a solid of one of the shapes."""
     sizes = "; ".join(_told(shape, SIZES[shape]) for shape in shapes)
     for name, kind in KINDS.items() if len(shapes) > 1 else ():
-        for shape, own in kind.solid_sizes.items():
-            sizes += f"; of {name}: {_told(shape, own)}"
+        for shape in kind.solids:
+            if own := kind.sizes_of(shape):
+                sizes += f"; of {name}: {_told(shape, own)}"
     return combined(
         click.option(
             "--shape",

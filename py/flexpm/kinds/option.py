@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from ..dimensions import refused
 from ..errors import InputError
 from ..require import ANY, POSITIVE, Bounds, require_number, require_one_of
 from .model_names import BLOCK_MODELS
@@ -111,17 +112,14 @@ def end_friction_of(asked: Asked) -> Mapping[str, Value]:
     """Friction of the ends; none if it is 0.
 
     Raises:
-        InputError: for one out of range, or for a specimen of the plane.
+        InputError: for one out of range, or for a 2D specimen.
     """
     name = END_FRICTION.name
     if asked.values.get(name) is None:
         return {}
     friction = asked.number(name, 0.0, END_FRICTION.bounds, "")
     if friction > 0.0 and asked.sizes.keys() == {"width", "height"}:
-        raise InputError(
-            f"run: {name} = {friction:g}, must be left out for a rectangle, whose ends are smooth; "
-            "test a solid"
-        )
+        raise refused(f"run: {name} = {friction:g}, must be left out for a rectangle", name)
     return {name: friction or None}
 
 

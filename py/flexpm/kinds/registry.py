@@ -46,7 +46,7 @@ def of_ends(shape: str, *, pulls: bool = False, confined: bool = False) -> str:
     def fits(kind: TestKind) -> bool:
         # a disc has one test, whatever presses on it
         same = shape in ("disc", "solid-disc") or (kind.pulls, kind.confined) == (pulls, confined)
-        return kind.rig is Rig.ENDS and shape in (kind.shape, *kind.solids) and same
+        return kind.rig is Rig.ENDS and shape in kind.variants and same
 
     return names(fits)[0]
 

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
+from ..dimensions import is_solid
 from .layout import Frame, Layout, Lines
-from .model_names import MODELS
 from .option import Asked, Option, Settle, Value
 from .rates import Rates
 from .words import Columns, Words
@@ -48,8 +48,26 @@ def _above_the_notch(frame: Frame) -> float:
 
 
 @dataclass(frozen=True)
+class Variant:
+    """A test on specimens of one shape."""
+
+    rates: Mapping[str, Rates] = field(default_factory=dict)  #: by model
+    only_models: tuple[str, ...] = ()  #: its models, if it has no rates
+    sizes: Mapping[str, float] = field(default_factory=dict)  #: others than the shape's [m]
+    #: Number of the results by model, 1 if it has none. A commit that changes a hash of a reference
+    #: command (scripts/checks/reference.py) raises the number of its test and model; runs of these
+    #: that were finished before get other keys and are done again.
+    results: Mapping[str, int] = field(default_factory=dict)
+
+    @property
+    def models(self) -> tuple[str, ...]:
+        """Names of its models."""
+        return tuple(self.rates) or self.only_models
+
+
+@dataclass(frozen=True)
 class TestKind:
-    """One test. What is left out is that of compression between the ends of a rectangle."""
+    """One test. Fields that are left out are those of compression between the ends."""
 
     __test__ = False  # no test of pytest
 
@@ -58,19 +76,8 @@ class TestKind:
     about: str  #: a sentence or two for the help and the manual
 
     # What is tested
-    shape: str = "rectangle"  #: a kind of specimen
-    solids: tuple[str, ...] = ()  #: kinds of space that it takes, too
-    other_hint: str = ""  #: what serves a user of the other dimension, if it takes none of that
-    sizes: Mapping[str, float] = field(default_factory=dict)  #: others than the shape's [m]
-    #: The same of its solids, by shape.
-    solid_sizes: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
-    models: tuple[str, ...] = MODELS
-    solid_models: tuple[str, ...] = ()  #: for solids, if it has no rates of them
-    #: Number of the results by model, 1 if it has none. A commit that changes a hash of a reference
-    #: command (scripts/checks/reference.py) raises the number of its test and model; runs of these
-    #: that were finished before get other keys and are done again.
-    results: Mapping[str, int] = field(default_factory=dict)
-    solid_results: Mapping[str, int] = field(default_factory=dict)  #: the same of solids
+    variants: Mapping[str, Variant]  #: by the shape of the specimen, the usual shape first
+    other_hint: str = ""  #: advice for a user of the other dimension, if it takes none of that
 
     # What can be asked for
     options: tuple[Option, ...] = ()  #: that not all tests have
@@ -95,8 +102,6 @@ class TestKind:
     takes_notch: bool = False  #: a specimen may bring its notch: open, up from the bottom's middle
     ligament: Callable[[Frame], float] = _above_the_notch  #: what notches leave of it [m]
     layout: Callable[[Frame], Layout] | None = None
-    rates: Mapping[str, Rates] = field(default_factory=dict)  #: by model
-    solid_rates: Mapping[str, Rates] = field(default_factory=dict)  #: the same of solids
     stop_ratio: float = STOP_RATIO
     #: It ends at this multiple of the reference strain unless told otherwise [-]: bonds that soften
     #: slowly, and the interlocking edges of inner particles, carry more than the reference.
@@ -128,14 +133,62 @@ class TestKind:
         """Whether an option that not all tests have is one of this test."""
         return any(one.name == option for one in self.options)
 
+    @property
+    def shapes(self) -> tuple[str, ...]:
+        """Shapes of its specimens, the usual one first."""
+        return tuple(self.variants)
+
+    @property
+    def shape(self) -> str:
+        """Usual shape of its specimens."""
+        return self.shapes[0]
+
+    @property
+    def solids(self) -> tuple[str, ...]:
+        """Shapes of its 3D specimens."""
+        return tuple(filter(is_solid, self.variants))
+
+    @property
+    def usual(self) -> Variant:
+        """The test on its usual shape."""
+        return self.variants[self.shape]
+
+    @property
+    def models(self) -> tuple[str, ...]:
+        """Models for its usual shape."""
+        return self.usual.models
+
+    @property
+    def rates(self) -> Mapping[str, Rates]:
+        """Rates for its usual shape, by model."""
+        return self.usual.rates
+
+    @property
+    def results(self) -> Mapping[str, int]:
+        """Numbers of the results for its usual shape, by model."""
+        return self.usual.results
+
+    @property
+    def sizes(self) -> Mapping[str, float]:
+        """Default sizes of its usual shape, where they are not the shape's [m]."""
+        return self.usual.sizes
+
+    def variant_in(self, *, solid: bool) -> Variant | None:
+        """The first variant of a dimension."""
+        found = (one for shape, one in self.variants.items() if is_solid(shape) == solid)
+        return next(found, None)
+
+    def variant_of(self, shape: str) -> Variant:
+        """The variant of a shape; of another shape than its own that of the same dimension."""
+        return self.variants.get(shape) or self.variant_in(solid=is_solid(shape)) or self.usual
+
     def models_of(self, shape: str) -> tuple[str, ...]:
-        """Models for a shape; of a solid those that have rates."""
-        of_solids = tuple(self.solid_rates) or self.solid_models
-        return of_solids if shape in self.solids else self.models
+        """Models for a shape."""
+        return self.variant_of(shape).models
 
     def sizes_of(self, shape: str) -> Mapping[str, float]:
-        """Sizes that it has unless told otherwise, where they are not the shape's [m]."""
-        return self.solid_sizes.get(shape, {}) if shape in self.solids else self.sizes
+        """Default sizes of a shape, where they are not the shape's [m]."""
+        return self.variant_of(shape).sizes
 
     @property
     def is_solve(self) -> bool:

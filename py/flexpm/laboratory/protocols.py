@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..dimensions import is_solid
 from ..kinds.option import Value
 from ..kinds.registry import kind_of
 from ..materials.material import Material
@@ -15,7 +16,6 @@ from ..runs.checkpoint import INTERVAL
 from ..runs.input_names import paced
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec, described
-from ..specimens.space.any_spec import is_solid
 from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 from .carrying_out import carry_out

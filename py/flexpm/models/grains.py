@@ -16,6 +16,7 @@ from yade import wrapper
 
 from .._flexpm import set_engines
 from ..arrays import IntArray
+from ..dimensions import refused
 from ..errors import InputError, SimulationError
 from ..files import Table
 from ..materials.material import Material
@@ -280,11 +281,9 @@ def build(
     damping = local_damping(damping, dynamic=dynamic)
     threads = require_threads("build: threads", threads)
     if isinstance(specimen, SolidSpecimen):
-        _refuse_plane(points, mesh, gravity)
+        _refuse_plane("build", points=points, mesh=mesh, gravity=gravity)
         if dynamic and model in SPHERE_MODELS:
-            raise InputError(
-                f"build: dynamic = True, must be False for {model} of a solid; leave it out"
-            )
+            raise refused(f"build: dynamic = True, must be False for {model} of a solid", "dynamic")
     else:
         require_specimen("build", specimen)
     if model in SPHERE_MODELS:
@@ -346,11 +345,7 @@ def elastic(
     """
     require_one_of("build: model", model, GRAIN_MODELS)
     if isinstance(specimen, SolidSpecimen):
-        if (points, mesh) != (POINTS[-1], MESHES[0]):
-            raise InputError(
-                f"elastic: points, mesh = {points}, {mesh}, must be left out for a solid, whose "
-                "contacts have their corners and an inner point, and whose meshes are fans"
-            )
+        _refuse_plane("elastic", points=points, mesh=mesh)
         return elastic_of_solid(specimen, load_material(material, model, solid=True), model)
     require_specimen("elastic", specimen)
     grains = grains_of(specimen, model, points, mesh)
@@ -374,14 +369,14 @@ def _refuse_second() -> None:
         raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
 
 
-def _refuse_plane(points: int, mesh: str, gravity: float) -> None:
-    """Refuse options of the plane beside a solid."""
-    if (points, mesh, gravity) != (POINTS[-1], MESHES[0], 0.0):
-        raise InputError(
-            f"build: points, mesh, gravity = {points}, {mesh}, {gravity:g}, must be left out for a "
-            "solid, whose contacts have their corners and an inner point, whose meshes are fans, "
-            "and which has no weight"
-        )
+def _refuse_plane(call: str, **given: float | str) -> None:
+    """Refuse options of 2D specimens for a 3D one."""
+    usual = {"points": POINTS[-1], "mesh": MESHES[0], "gravity": 0.0}
+    for name, value in given.items():
+        if value != usual[name]:
+            shown = ", ".join(str(one or 0) for one in given.values())
+            asked = f"{call}: {', '.join(given)} = {shown}, must be left out for a solid"
+            raise refused(asked, name)
 
 
 def _idle_newton() -> wrapper.Engine:

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TypedDict
 
+from ..dimensions import refused
 from ..errors import InputError
 from ..kinds.model_names import BLOCK_MODELS as SOLID_MODELS
 from ..kinds.model_names import GRAIN_MODELS, INNER_MODELS, MODELS, SPHERE_MODELS
@@ -64,6 +66,24 @@ def local_damping(damping: float | None, *, dynamic: bool) -> float:
     if damping is None:
         return 0.0 if dynamic else DAMPING
     return require_number("build: damping", damping, _DAMPING)
+
+
+def require_model(label: str, model: str, known: Sequence[str], *, solid: bool) -> None:
+    """Refuse a model that is not one of a few.
+
+    Args:
+        label: What asks for it, for the message.
+        model: Its name.
+        known: Names of the models that are available.
+        solid: Whether they are those of a 3D specimen.
+
+    Raises:
+        InputError: for another model.
+    """
+    try:
+        require_one_of(label, model, known)
+    except InputError as error:
+        raise (refused(str(error), "inner") if solid and model in INNER_MODELS else error) from None
 
 
 def check_options(

@@ -14,12 +14,11 @@ from ..errors import InputError, SimulationError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.mixing import description, mineral_materials, pair_materials
-from ..require import require_one_of
 from ..specimens import mineral_map
 from ..specimens.kernel_input import call
 from ..specimens.space.specimen import SolidSpecimen
 from .assembly import grain_material
-from .options import SOLID_MODELS
+from .options import SOLID_MODELS, require_model
 
 #: What the elastic solve takes of the law of each pair of minerals, in this order.
 _ELASTIC = ("young", "poisson", "normal_stiffness", "shear_ratio")
@@ -35,7 +34,7 @@ def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.
         InputError: for a model that solids do not have, minerals that do not go together, or a
             value out of range.
     """
-    require_one_of(f"build: model for a {specimen.kind}", model, SOLID_MODELS)
+    require_model(f"build: model for a {specimen.kind}", model, SOLID_MODELS, solid=True)
     minerals = _minerals(specimen, chosen, model)
     pairs = [] if minerals is None else pair_materials(chosen, model)
     solver = wrapper.SolidSolver()
@@ -97,7 +96,7 @@ def elastic_of_solid(specimen: SolidSpecimen, chosen: Material, model: str) -> d
         InputError: for a model that solids do not have, or minerals that do not go together.
         SimulationError: if the forces do not come to balance.
     """
-    require_one_of(f"elastic: model for a {specimen.kind}", model, SOLID_MODELS)
+    require_model(f"elastic: model for a {specimen.kind}", model, SOLID_MODELS, solid=True)
     if "height" not in specimen.dimensions:
         raise InputError(f"elastic: specimen = {specimen.kind}, must be a box or a cylinder")
     if model == "rigid":

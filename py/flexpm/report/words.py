@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..dimensions import is_solid
 from ..kinds.registry import OWN, kind_of
 from ..kinds.words import Drawn, Shown, Words, strain, stress
-from ..specimens.space.any_spec import is_solid
 
 if TYPE_CHECKING:
     from ..files import Table

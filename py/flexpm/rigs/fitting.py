@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from typing import Unpack
 
+from ..dimensions import is_solid
 from ..errors import InputError
 from ..kinds.registry import KINDS
 from ..kinds.test_kind import Rig
 from ..models.grains import Model
 from ..models.spheres import SphereModel
 from ..runs.runner import Runner
-from ..specimens.space.any_spec import is_solid
 from .outcome.calls import recording
 from .outcome.kept import KeptTest, Leaves
 from .rig import TestRig

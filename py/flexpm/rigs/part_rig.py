@@ -16,6 +16,7 @@ from typing import Unpack
 import numpy as np
 from yade import wrapper
 
+from ..dimensions import is_solid
 from ..errors import InputError
 from ..files import Table
 from ..kinds.registry import OWN, kind_of
@@ -23,7 +24,6 @@ from ..models.grains import Model
 from ..require import NOT_NEGATIVE, require_number
 from ..runs.loading_rate import Loading, Scales, Schedule, rates_of
 from ..runs.runner import Runner
-from ..specimens.space.any_spec import is_solid
 from .outcome.calls import recording
 from .outcome.kept import KeptTest, Leaves
 from .part_columns import PartColumns

@@ -17,6 +17,7 @@ import numpy as np
 import yade
 from yade import wrapper
 
+from ..dimensions import is_solid
 from ..files import Table
 from ..kinds.registry import of_ends
 from ..materials.mixing import mineral_materials
@@ -26,7 +27,6 @@ from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
 from ..runs.likely import BRITTLE, Softening
 from ..runs.loading_rate import WAITING_MODELS, Loading, Scales, Schedule, schedule
-from ..specimens.space.any_spec import is_solid
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeGuard
 
+from ..dimensions import is_solid
 from ..errors import InputError
 from ..files import Table, load_json
 from ..kinds.registry import options
@@ -21,7 +22,7 @@ from ..materials.keys import JOINT_UNITS, UNITS
 from ..materials.material import Material, load, preset_names
 from ..materials.mixing import from_description
 from ..results.result_checks import FINISHED, SO_FAR
-from ..specimens.space.any_spec import SIZES, AnySpec, field_names, is_solid, spec_of
+from ..specimens.space.any_spec import SIZES, AnySpec, field_names, spec_of
 from ..specimens.spec import GRAINS_FILE
 from .input_names import INPUT_UNITS, unused
 from .run_inputs import RunInputs

@@ -27,7 +27,7 @@ def _unused(kind: TestKind) -> tuple[str, ...]:
     """Options that a test has no use for."""
     others = [name for name in options() if not kind.has(name)]
     renamed = [one.size for one in kind.options if one.size]
-    takes = [name for shape in (kind.shape, *kind.solids) for name in SIZES[shape]]
+    takes = [name for shape in kind.variants for name in SIZES[shape]]
     sizes = [name for name in _SIZES if name not in takes or name in renamed]
     pressure = () if kind.confined else ("confinement",)
     start = () if kind.static_models else ("start",)
@@ -37,7 +37,7 @@ def _unused(kind: TestKind) -> tuple[str, ...]:
 
 #: Options that a test has no use for.
 UNUSED = {name: _unused(kind) for name, kind in KINDS.items()}
-#: Options that no solid has; the first is one of its packing.
+#: Options that no 3D specimen has; the first is one of its packing.
 OF_THE_PLANE = ("thickness", "points", "mesh", "dynamic", "gravity", "start")
 
 

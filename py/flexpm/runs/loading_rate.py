@@ -172,8 +172,8 @@ def rates_of(test: str, model: str, *, solid: bool = False) -> Rates:
     Raises:
         InputError: for a test that the model has none for.
     """
-    all_kinds = [(kind.name, kind.solid_rates if solid else kind.rates) for kind in _RATED]
-    known = {name: rates for name, rates in all_kinds if model in rates}
+    variants = {kind.name: kind.variant_in(solid=solid) for kind in _RATED}
+    known = {name: one.rates for name, one in variants.items() if one and model in one.rates}
     require_one_of(f"test of model {model}", test, tuple(known))
     return known[test][model]
 

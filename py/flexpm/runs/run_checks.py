@@ -7,6 +7,7 @@ from dataclasses import fields
 from numbers import Number
 from typing import NoReturn
 
+from ..dimensions import is_solid, refused
 from ..errors import InputError
 from ..kinds.option import Asked
 from ..kinds.registry import KINDS, names
@@ -18,6 +19,7 @@ from ..models.options import (
     SPHERE_MODELS,
     check_options,
     local_damping,
+    require_model,
 )
 from ..require import (
     Bounds,
@@ -28,7 +30,6 @@ from ..require import (
     require_one_of,
     require_whole,
 )
-from ..specimens.space.any_spec import is_solid
 from .input_names import AUTO, OF_THE_PLANE, OWN_OPTIONS, STARTS, UNUSED, with_unit
 from .loading_rate import HALVING_BOUNDS, LARGEST_STOP_RATIO, LOADINGS, RATE, WAITING_MODELS
 from .run_inputs import RunInputs
@@ -166,7 +167,8 @@ def _check_waiting(run: RunInputs) -> None:
 
 def _check_test(run: RunInputs) -> None:
     label = "run: model" if run.kind.is_solve else f"run: model of {run.test}"
-    require_one_of(label, run.model, run.kind.models_of(run.specimen.kind))
+    known = run.kind.models_of(run.specimen.kind)
+    require_model(label, run.model, known, solid=run.is_solid)
     if run.model in SPHERE_MODELS:
         run.specimen.require_discs(run.model)
     if run.model in INNER_MODELS:
@@ -189,7 +191,7 @@ def require_shape(kind: TestKind, shape: str) -> None:
     Raises:
         InputError: naming that of the plane, which it takes, and of solids those of its own.
     """
-    if shape not in (kind.shape, *kind.solids):
+    if shape not in kind.variants:
         hint = kind.other_hint if is_solid(shape) != is_solid(kind.shape) else ""
         others = [one for one in kind.solids if one != kind.shape]
         if is_solid(shape) and others:
@@ -198,16 +200,15 @@ def require_shape(kind: TestKind, shape: str) -> None:
 
 
 def _check_solid(run: RunInputs) -> None:
-    """Refuse tests and options that are of the plane alone."""
+    """Refuse tests and options that are available in 2D only."""
     require_shape(run.kind, run.specimen.kind)
     for name in OF_THE_PLANE[1:]:
         value, usual = getattr(run, name), getattr(type(run), name, None)
         if name == "dynamic" and run.kind.dynamic:
             continue
         if value != usual and (name, value) != ("start", "rest"):
-            raise InputError(
-                f"run: {with_unit(name, value)}, must be left out for a {run.specimen.kind}"
-            )
+            asked = f"run: {with_unit(name, value)}, must be left out for a {run.specimen.kind}"
+            raise refused(asked, name)
 
 
 def _settle_own(run: RunInputs) -> None:

@@ -7,6 +7,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 
+from ..dimensions import is_solid
 from ..files import Table
 from ..kinds.model_names import BLOCK_MODELS
 from ..kinds.option import Value
@@ -14,7 +15,7 @@ from ..kinds.registry import kind_of
 from ..kinds.test_kind import STOP_RATIO, TestKind
 from ..materials.mixing import is_brittle
 from ..models.options import DAMPING, GRAIN_MODELS, local_damping
-from ..specimens.space.any_spec import AnySpec, is_solid
+from ..specimens.space.any_spec import AnySpec
 from ..specimens.space.spec import SolidSpec
 from .loading_rate import WAITING_MODELS
 

@@ -11,6 +11,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields, replace
 
+from ..dimensions import is_solid
 from ..errors import InputError
 from ..files import Table
 from ..kinds.registry import ELASTIC, TESTS, kind_of
@@ -18,7 +19,7 @@ from ..materials.material import Material
 from ..materials.mixing import description, is_brittle
 from ..models.options import DAMPING
 from ..require import require_known
-from ..specimens.space.any_spec import SIZES, AnySpec, field_names, is_solid, spec_of, spec_type
+from ..specimens.space.any_spec import SIZES, AnySpec, field_names, spec_of, spec_type
 from .input_names import OWN_OPTIONS, PACKING, SIMULATION, paced, shape_of
 from .run_checks import require_shape, settle
 from .run_inputs import RunInputs
@@ -183,7 +184,8 @@ def results_number(
         minerals: Whether its grains have several minerals, whose weakest contacts fix the rate.
     """
     kind = kind_of(test)
-    number = (kind.solid_results if solid else kind.results).get(model, 1)
+    variant = kind.variant_in(solid=solid)
+    number = 1 if variant is None else variant.results.get(model, 1)
     return number + _EDGE_NORMALS * edge_normals + _REAL_MASSES * dynamic + _MINERALS * minerals
 
 

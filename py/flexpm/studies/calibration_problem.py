@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from ..dimensions import is_solid
 from ..errors import InputError
 from ..files import Table, load_toml
 from ..kinds.registry import ELASTIC, KINDS, TESTS, names
@@ -36,7 +37,6 @@ from ..require import (
 from ..results import strength
 from ..runs import input_names
 from ..specimens.checks import DIAMETERS, require_seed
-from ..specimens.space.any_spec import is_solid
 from .study import MOST_RUNS, flat
 
 #: Measures that can be targets, and the tests that they need; ``envelope`` is one run for each

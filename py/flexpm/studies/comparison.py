@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
+from ..dimensions import is_solid
 from ..errors import InputError, SimulationError
 from ..files import Table, csv_text, output_folder, write_text
 from ..kinds.registry import kind_of
@@ -30,7 +31,6 @@ from ..runs.checkpoint import INTERVAL
 from ..runs.input_names import ranges
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec, described, split
-from ..specimens.space.any_spec import is_solid
 from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 from ..text import name_of

@@ -15,6 +15,7 @@ from pathlib import Path
 from subprocess import CompletedProcess
 from typing import Protocol
 
+from ..dimensions import is_solid
 from ..errors import InputError
 from ..files import Table, json_text, read_json, write_text
 from ..kinds.registry import KINDS, kind_of
@@ -26,7 +27,7 @@ from ..runs import input_names
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
-from ..specimens.space.any_spec import AnySpec, is_solid
+from ..specimens.space.any_spec import AnySpec
 
 #: Tests of a study; `elastic` is the direct solve.
 _TESTS = tuple(KINDS)

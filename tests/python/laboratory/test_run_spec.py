@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 import flexpm
 from flexpm import materials
+from flexpm.dimensions import is_solid
 from flexpm.errors import InputError
 from flexpm.kinds.registry import kind_of
 from flexpm.materials.keys import ELASTIC_SET, ENERGY_KEYS
@@ -30,7 +31,7 @@ from flexpm.runs.run_spec import (
     described,
     split,
 )
-from flexpm.specimens.space.any_spec import SIZES, is_solid
+from flexpm.specimens.space.any_spec import SIZES
 from flexpm.specimens.space.spec import SolidSpec
 from flexpm.specimens.spec import SpecimenSpec
 

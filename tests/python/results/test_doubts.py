@@ -9,11 +9,12 @@ import json
 import pytest
 
 from flexpm.cli import main as cli
+from flexpm.dimensions import is_solid
 from flexpm.materials import material as materials
 from flexpm.results import doubts
 from flexpm.runs.input_names import models_of, shape_of
 from flexpm.runs.run_spec import TESTS, RunSpec, described
-from flexpm.specimens.space.any_spec import is_solid, spec_type
+from flexpm.specimens.space.any_spec import spec_type
 from flexpm.specimens.spec import SpecimenSpec
 
 SAW = "--set joint.saw.normal_stiffness=1e13 --set joint.saw.shear_stiffness=1e13"

@@ -11,7 +11,7 @@ from ..layout import Frame
 from ..model_names import BLOCK_MODELS
 from ..option import Asked, Option, Value
 from ..rates import Rates
-from ..test_kind import Rig, TestKind
+from ..test_kind import Rig, TestKind, Variant
 from ..toughness import bending_toughness, require_span
 from ..words import Columns
 
@@ -41,15 +41,30 @@ def _measure(frame: Frame, record: Columns, peak: float | None) -> Mapping[str, 
     return bent.measured(frame, record, peak, toughness)
 
 
+_RATES = {
+    "flexible": Rates(0.01, 0.005, (0.004, 0.012), 0.01, likely_crossings=10, likely_softening=680),
+    "rigid": Rates(0.01, 0.0015, (0.002, 0.004), 0.01, likely_crossings=17, likely_softening=600),
+}
+
+_SOLID_RATES = {
+    "flexible": Rates(
+        0.01, 0.005, (0.004, 0.012), 0.01, likely_crossings=10, likely_softening=1050
+    ),
+    "rigid": Rates(0.01, 0.0015, (0.002, 0.004), 0.01, likely_crossings=17, likely_softening=1100),
+}
+
 KIND = TestKind(
     name="bending",
     order=5,
     about="a beam on two supports, pressed in the middle",
-    sizes={"width": 0.18, "height": 0.04},
-    solids=("box",),
-    solid_sizes={"box": {"width": 0.09, "depth": 0.02, "height": 0.02}},
-    models=BLOCK_MODELS,
-    results=dict.fromkeys(BLOCK_MODELS, 4),
+    variants={
+        "rectangle": Variant(
+            rates=_RATES,
+            sizes={"width": 0.18, "height": 0.04},
+            results=dict.fromkeys(BLOCK_MODELS, 4),
+        ),
+        "box": Variant(_SOLID_RATES, sizes={"width": 0.09, "depth": 0.02, "height": 0.02}),
+    },
     options=(
         Option("length", "Length of a beam", "m", default="0.18; its height: 0.04", size="width"),
         Option(
@@ -67,22 +82,6 @@ KIND = TestKind(
     cut=bent.notch,
     takes_notch=True,
     layout=bent.on_rollers,
-    rates={
-        "flexible": Rates(
-            0.01, 0.005, (0.004, 0.012), 0.01, likely_crossings=10, likely_softening=680
-        ),
-        "rigid": Rates(
-            0.01, 0.0015, (0.002, 0.004), 0.01, likely_crossings=17, likely_softening=600
-        ),
-    },
-    solid_rates={
-        "flexible": Rates(
-            0.01, 0.005, (0.004, 0.012), 0.01, likely_crossings=10, likely_softening=1050
-        ),
-        "rigid": Rates(
-            0.01, 0.0015, (0.002, 0.004), 0.01, likely_crossings=17, likely_softening=1100
-        ),
-    },
     stop_ratio=0.1,  # its work counts up to the end
     largest_strain=20.0,  # it is bent until it is broken through
     likely_power=0.85,  # it ends with all of its cracks open

@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ...dimensions import refused
 from ...errors import InputError
 from ..model_names import BLOCK_MODELS
 from ..option import JAW_RADIUS, Asked, Option, Value
 from ..rates import Rates
-from ..test_kind import TestKind
+from ..test_kind import TestKind, Variant
 from ..words import Words, strain, stress
 
 #: Largest radius of a jaw over that of the disc, beyond which it is flat [-].
@@ -25,10 +26,7 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
     least = 0.5 * asked.sizes["diameter"]
     radius = asked.number(name, least)
     if "depth" not in asked.sizes:
-        raise InputError(
-            f"run: {name} = {radius:g} m, must be left out for a disc of the plane; lay jaws with "
-            "flexpm.PartRig, or give a depth"
-        )
+        raise refused(f"run: {name} = {radius:g} m, must be left out for a disc", name)
     if not least < radius <= _WIDEST * least:
         raise InputError(
             f"run: {name} = {radius:g} m, must be > {least:g} m, the disc's radius, and <= "
@@ -37,13 +35,34 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
     return {name: radius}
 
 
+_RATES = {
+    "flexible": Rates(0.01, 0.008, (0.033, 0.028), 0.01, likely_crossings=85),
+    "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=180),
+    **dict.fromkeys(("inner", "inner-un"), _INNER),
+    **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
+}
+
+_SOLID_RATES = {
+    "flexible": Rates(0.01, 0.008, (0.033, 0.028), 0.01, likely_crossings=140),
+    "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=550),
+}
+
 KIND = TestKind(
     name="brazilian",
     order=4,
     about="compression of a disc between two plates, whose axial stress is 2 P / (pi D t), P the "
     "force, D the diameter, t the thickness",
-    shape="disc",
-    solids=("solid-disc",),
+    variants={
+        "disc": Variant(
+            rates=_RATES,
+            results={
+                **dict.fromkeys(("flexible", "rigid"), 5),
+                **dict.fromkeys(("inner", "inner-un"), 4),
+                **dict.fromkeys(("jcfpm", "cohfrict"), 3),
+            },
+        ),
+        "solid-disc": Variant(_SOLID_RATES),
+    },
     options=(
         Option(
             JAW_RADIUS,
@@ -55,21 +74,6 @@ KIND = TestKind(
         ),
     ),
     settle=_settle,
-    results={
-        **dict.fromkeys(("flexible", "rigid"), 5),
-        **dict.fromkeys(("inner", "inner-un"), 4),
-        **dict.fromkeys(("jcfpm", "cohfrict"), 3),
-    },
-    rates={
-        "flexible": Rates(0.01, 0.008, (0.033, 0.028), 0.01, likely_crossings=85),
-        "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=180),
-        **dict.fromkeys(("inner", "inner-un"), _INNER),
-        **dict.fromkeys(("jcfpm", "cohfrict"), _SPHERES),
-    },
-    solid_rates={
-        "flexible": Rates(0.01, 0.008, (0.033, 0.028), 0.01, likely_crossings=140),
-        "rigid": Rates(0.01, 0.012, (0.09, 0.06), 0.006, likely_crossings=550),
-    },
     largest_strain=16.0,  # plates press into discs, which softening lets carry more
     falls_freely=True,
     regains=True,

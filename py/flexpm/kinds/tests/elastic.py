@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Elastic constants of a rectangle or a solid by one static solve, which is no simulation."""
 
-from ..model_names import GRAIN_MODELS
-from ..test_kind import Rig, TestKind
+from ..model_names import BLOCK_MODELS, GRAIN_MODELS
+from ..test_kind import Rig, TestKind, Variant
 
 KIND = TestKind(
     name="elastic",
     order=99,
     about="elastic constants of a rectangle, a box or a cylinder by one static solve",
-    solids=("box", "cylinder"),
-    models=GRAIN_MODELS,
-    solid_models=("flexible", "rigid"),
+    variants={
+        "rectangle": Variant(only_models=GRAIN_MODELS),
+        "box": Variant(only_models=BLOCK_MODELS),
+        "cylinder": Variant(only_models=BLOCK_MODELS),
+    },
     without=(
         *("rate", "max_strain", "stop_ratio", "dynamic", "gravity", "damping", "start", "loading"),
     ),

@@ -16,7 +16,7 @@ from ..layout import LEFT, RIGHT, Frame, Layout, Lines, Plate
 from ..model_names import BLOCK_MODELS
 from ..option import Asked, Option, Value
 from ..part_measures import residual, work
-from ..test_kind import Rig, Stage, TestKind
+from ..test_kind import Rig, Stage, TestKind, Variant
 from ..words import CRACKS, Columns, Words, stress
 
 #: Depth of a notch over the height, distance of the pairs over the width, unless given [-].
@@ -130,11 +130,14 @@ KIND = TestKind(
     order=8,
     about="punch-through shear: a platen pushes the part between two pairs of notches out of a "
     "rectangle, whose outer parts stand on supports; its stress is the load over both bridges",
-    sizes={"width": 0.08, "height": 0.04},
-    solids=("box",),
-    solid_sizes={"box": {"width": 0.06, "depth": 0.02, "height": 0.03}},
-    models=BLOCK_MODELS,
-    results=dict.fromkeys(BLOCK_MODELS, 3),  # unbalanced_ratio of the jack, D103
+    variants={
+        "rectangle": Variant(
+            rates=slid.RATES,
+            sizes={"width": 0.08, "height": 0.04},
+            results=dict.fromkeys(BLOCK_MODELS, 3),  # unbalanced_ratio of the jack, D103
+        ),
+        "box": Variant(slid.SOLID_RATES, sizes={"width": 0.06, "depth": 0.02, "height": 0.03}),
+    },
     options=(
         Option(
             "notch",
@@ -155,8 +158,6 @@ KIND = TestKind(
     notch_law=_SLOT,
     ligament=lambda frame: min(_bridges(frame)),
     layout=_punched,
-    rates=slid.RATES,
-    solid_rates=slid.SOLID_RATES,
     slides=True,
     needs_peak=False,
     no_constants=("youngs_modulus",),

@@ -8,10 +8,9 @@ from collections.abc import Mapping
 from ...require import NOT_NEGATIVE, Bounds
 from .. import bent
 from ..layout import Frame
-from ..model_names import BLOCK_MODELS
 from ..option import Asked, Option, Value
 from ..rates import Rates
-from ..test_kind import Rig, TestKind
+from ..test_kind import Rig, TestKind, Variant
 from ..toughness import half_disc_toughness, require_half_disc
 from ..words import Columns
 
@@ -41,14 +40,40 @@ def _measure(frame: Frame, record: Columns, peak: float | None) -> Mapping[str, 
     return bent.measured(frame, record, peak, toughness)
 
 
+_RATES = {
+    "flexible": Rates(
+        0.01,
+        0.006,
+        (0.0055, 0.012),
+        0.01,
+        waiting_constant=0.08,
+        likely_crossings=23,
+        likely_softening=400,
+    ),
+    "rigid": Rates(0.01, 0.003, (0.006, 0.02), 0.01, likely_crossings=30, likely_softening=150),
+}
+
+_SOLID_RATES = {
+    "flexible": Rates(
+        0.01,
+        0.006,
+        (0.0055, 0.012),
+        0.01,
+        waiting_constant=0.08,
+        likely_crossings=23,
+        likely_softening=930,
+    ),
+    "rigid": Rates(0.01, 0.003, (0.012, 0.02), 0.01, likely_crossings=30, likely_softening=1020),
+}
+
 KIND = TestKind(
     name="scb",
     order=6,
     about="half a disc with a notch on two supports, pressed on top",
-    shape="half-disc",
-    solids=("solid-half-disc",),
-    models=BLOCK_MODELS,
-    results={"flexible": 6, "rigid": 5},
+    variants={
+        "half-disc": Variant(_RATES, results={"flexible": 6, "rigid": 5}),
+        "solid-half-disc": Variant(_SOLID_RATES),
+    },
     options=(
         Option("span", "Distance of the supports", "m", default="0.6 of the diameter"),
         Option(
@@ -62,32 +87,6 @@ KIND = TestKind(
     cut=bent.notch,
     takes_notch=True,
     layout=bent.on_rollers,
-    rates={
-        "flexible": Rates(
-            0.01,
-            0.006,
-            (0.0055, 0.012),
-            0.01,
-            waiting_constant=0.08,
-            likely_crossings=23,
-            likely_softening=400,
-        ),
-        "rigid": Rates(0.01, 0.003, (0.006, 0.02), 0.01, likely_crossings=30, likely_softening=150),
-    },
-    solid_rates={
-        "flexible": Rates(
-            0.01,
-            0.006,
-            (0.0055, 0.012),
-            0.01,
-            waiting_constant=0.08,
-            likely_crossings=23,
-            likely_softening=930,
-        ),
-        "rigid": Rates(
-            0.01, 0.003, (0.012, 0.02), 0.01, likely_crossings=30, likely_softening=1020
-        ),
-    },
     stop_ratio=0.1,
     largest_strain=20.0,
     likely_power=0.85,

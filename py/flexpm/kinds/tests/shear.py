@@ -10,7 +10,7 @@ from ..layout import BOTTOM, TOP, Frame, Layout, Opening, Plate
 from ..model_names import BLOCK_MODELS
 from ..option import PRESSURE, Asked, Option, Value
 from ..part_measures import residual
-from ..test_kind import Rig, Stage, TestKind
+from ..test_kind import Rig, Stage, TestKind, Variant
 from ..words import CRACKS, Columns, Words, stress
 
 #: On the upper half unless it is given [Pa].
@@ -57,11 +57,14 @@ KIND = TestKind(
     order=7,
     about="the lower half of a rectangle is pushed along below the upper one, to the largest "
     "displacement",
-    sizes={"width": 0.08, "height": 0.04},
-    solids=("box",),
-    solid_sizes={"box": {"width": 0.04, "depth": 0.02, "height": 0.02}},
-    models=BLOCK_MODELS,
-    results=dict.fromkeys(BLOCK_MODELS, 5),  # unbalanced_ratio of the lid, D103
+    variants={
+        "rectangle": Variant(
+            rates=slid.RATES,
+            sizes={"width": 0.08, "height": 0.04},
+            results=dict.fromkeys(BLOCK_MODELS, 5),  # unbalanced_ratio of the lid, D103
+        ),
+        "box": Variant(slid.SOLID_RATES, sizes={"width": 0.04, "depth": 0.02, "height": 0.02}),
+    },
     options=(
         Option("normal_stress", "On the upper half", "Pa", default="1e6"),
         slid.WAY,
@@ -73,8 +76,6 @@ KIND = TestKind(
     stages=(Stage.PRESS, Stage.SLIDE),
     pressure="normal_stress",
     layout=_between_boxes,
-    rates=slid.RATES,
-    solid_rates=slid.SOLID_RATES,
     slides=True,
     needs_peak=False,
     no_constants=("youngs_modulus",),  # the slope of a box

@@ -9,7 +9,7 @@ from ...errors import InputError
 from ...require import Bounds
 from ..option import END_FRICTION, Asked, Option, Value, end_friction_of
 from ..rates import Rates
-from ..test_kind import Stage, TestKind
+from ..test_kind import Stage, TestKind, Variant
 
 _PRESSURE = Bounds(at_least=0.0, at_most=1e15)
 
@@ -28,15 +28,21 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
     return {"second_confinement": pressure, **friction}
 
 
+_RATES = {
+    "flexible": Rates(0.005, 0.0015, (0.0025, 0.06), 0.002, likely_crossings=115),
+    "rigid": Rates(0.01, 0.003, (0.022, 0.1), 0.0075, likely_crossings=200),
+}
+
 KIND = TestKind(
     name="triaxial",
     order=10,
     about="compression of a cylinder or a box under the confinement, which acts all around first; "
     "of a box under two, which is true triaxial",
-    shape="cylinder",
-    solids=("box", "cylinder"),
+    variants={
+        "cylinder": Variant(_RATES),
+        "box": Variant(_RATES),
+    },
     other_hint="; biaxial is the test of the plane",
-    models=("flexible", "rigid"),
     confined=True,
     stages=(Stage.CONFINE, Stage.LOAD),
     options=(
@@ -51,10 +57,6 @@ KIND = TestKind(
         END_FRICTION,
     ),
     settle=_settle,
-    solid_rates={
-        "flexible": Rates(0.005, 0.0015, (0.0025, 0.06), 0.002, likely_crossings=115),
-        "rigid": Rates(0.01, 0.003, (0.022, 0.1), 0.0075, likely_crossings=200),
-    },
     falls_freely=True,
     is_core=True,
     envelope=True,

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import NoReturn, Unpack
 
 import numpy as np
 from yade import wrapper
 
+from ...dimensions import refused
 from ...errors import InputError
 from ...files import Table
 from ...kinds.registry import OWN
@@ -92,8 +93,8 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         self._turn((parts, back), about, require_direction("turn: axis", axis, SPACE), sizes)
 
     def excavate(self, *_: object, **__: object) -> NoReturn:
-        """Refuse it: of the plane alone."""
-        raise _of_the_plane(self.excavate)
+        """Refuse it: available in 2D only."""
+        raise refused("excavate: specimen = a solid, must be 2D", "excavation")
 
     @property
     def drives(self) -> Table:
@@ -232,10 +233,3 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         frame = super()._frame
         assert isinstance(frame, wrapper.SolidPartFrame)
         return frame
-
-
-def _of_the_plane(call: Callable[..., object]) -> InputError:
-    """What says that solids do not have a call."""
-    return InputError(
-        f"{call.__name__}: specimen = a solid, must be plane; lay supports and platens"
-    )

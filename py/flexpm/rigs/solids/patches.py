@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import FloatArray
+from ...dimensions import refused
 from ...errors import InputError
 from ...require import POSITIVE, quoted, require_number
 from ...specimens.space.specimen import SolidSpecimen
@@ -100,7 +101,8 @@ def sides_under(specimen: SolidSpecimen, side: object, hole: object) -> list[int
         InputError: for one that there is not, or a hole.
     """
     if hole is not None:
-        raise InputError(f"fluid: hole = {quoted(hole)}, must be left out for a solid; give a side")
+        asked = f"fluid: hole = {quoted(hole)}, must be left out for a solid"
+        raise refused(asked, "hole_pressure")
     if side is None:
         raise InputError("fluid: side = None, must be given; number one or several")
     sides, there = sides_of(side), sorted({*FLAT[specimen.kind], _MANTLE})

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import fields
 
+from ...dimensions import is_solid
 from ...files import Table
 from ..spec import SIZES as PLANE_SIZES
 from ..spec import SpecimenSpec
@@ -17,15 +18,8 @@ from .spec import SolidSpec
 #: What a specimen of any dimension is made from.
 AnySpec = SpecimenSpec | SolidSpec
 
-#: Shapes of space.
-SOLIDS = tuple(SOLID_SIZES)
 #: Sizes of each shape of any dimension and their defaults [m].
 SIZES = {**PLANE_SIZES, **SOLID_SIZES}
-
-
-def is_solid(kind: object) -> bool:
-    """Whether a kind of specimen is one of space."""
-    return kind in SOLIDS
 
 
 def spec_type(kind: object) -> type[SpecimenSpec] | type[SolidSpec]:

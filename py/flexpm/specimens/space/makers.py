@@ -8,7 +8,7 @@ from typing import Unpack
 
 import numpy.typing as npt
 
-from ...errors import InputError
+from ...dimensions import refused
 from ...files import Table
 from ...require import quoted
 from ..plane import Packing, packing_of
@@ -155,10 +155,8 @@ class SolidShapes:
 def _packed(kind: str, sizes: dict[str, float], packing: Packing) -> SolidSpecimen:
     given: Table = {**packing}
     if "holes" in given:
-        raise InputError(
-            f"Specimen.{kind}: holes = {quoted(given['holes'])}, are of the plane alone; leave "
-            "them out, or take Specimen.polygon"
-        )
+        asked = f"Specimen.{kind}: holes = {quoted(given['holes'])}, must be left out"
+        raise refused(asked, "holes")
     fields: Table = {**sizes, **packing_of(kind, (), packing)}
     progress = fields.pop("progress", None)
     return SolidSpecimen.pack(SolidSpec(kind, **fields), progress)
