@@ -73,7 +73,9 @@ def typed(annotation: str) -> dict[str, object]:
 
 def fields_of(cls: type, without: Iterable[str] = ()) -> dict[str, dict[str, object]]:
     """Keys of a table whose fields are those of a class."""
-    words = words_of(cls)
+    words = {}
+    for base in reversed(cls.__mro__[:-1]):
+        words |= words_of(base)
     return {
         one.name: typed(str(one.type)) | described(words.get(one.name, ""))
         for one in dataclasses.fields(cls)
@@ -105,7 +107,7 @@ def made() -> dict[str, Any]:
     from flexpm.models.options import MESHES, MODELS, POINTS
     from flexpm.results.result import OF_SOLIDS, Result
     from flexpm.results.result_checks import STATUSES
-    from flexpm.runs.input_names import OWN_OPTIONS, STARTS
+    from flexpm.runs.groups import DECLARED, OWN_OPTIONS, STARTS
     from flexpm.runs.run_inputs import RunInputs
     from flexpm.specimens.space.spec import SIZES as SOLIDS
     from flexpm.specimens.space.spec import SolidSpec
@@ -114,6 +116,9 @@ def made() -> dict[str, Any]:
     result = fields_of(Result, ("curve", "cracks", "emission", "snapshot", "resumed_at"))
     result["warnings"] = {"type": "array", "items": TEXT}
     run = fields_of(RunInputs, ("own",))
+    for name, one in DECLARED.items():
+        default = f"; default: {one.default}" if one.default else ""
+        run[name] |= described(capital(f"{one.phrase}{default}".replace("--", "")))
     for name in OWN_OPTIONS:
         run[name] = run.get(name, dict(NUMBER)) | option([*options()[name].values()])
     plane, solid = fields_of(SpecimenSpec), fields_of(SolidSpec)

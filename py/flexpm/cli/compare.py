@@ -17,7 +17,7 @@ from ..materials.material import default_name
 from ..models.options import MODELS
 from ..report import tables
 from ..require import NOT_NEGATIVE, require_known
-from ..runs.input_names import OWN_OPTIONS, ranges
+from ..runs.input_names import SIMULATION, ranges
 from ..studies.jobs import place_of
 from . import inputs, packings, terminal
 from . import options as cli_options
@@ -25,20 +25,7 @@ from .parameters import Each, Name, Quantity
 from .solids import shape_options
 
 #: Options that all runs share, as ``flexpm.compare`` has them.
-_SHARED = (
-    *(
-        "mesh",
-        "rate",
-        "halvings",
-        "max_strain",
-        "stop_ratio",
-        "dynamic",
-        "gravity",
-        "damping",
-        "start",
-    ),
-    *("loading", *OWN_OPTIONS, "interaction_range"),
-)
+_SHARED = tuple(name for name in SIMULATION if name not in ("model", "points", "confinement"))
 
 if TYPE_CHECKING:
     from ..studies.comparison import Case

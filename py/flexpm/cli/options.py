@@ -4,24 +4,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
-from ..kinds.option import Option
-from ..kinds.registry import KINDS, names, options
-from ..kinds.test_kind import PLATEAU_STRAIN, TestKind
-from ..models.options import MESHES, MODELS, POINTS, RANGE
+from ..kinds.option import Option, told_of
+from ..kinds.registry import options
+from ..models.options import MESHES
 from ..require import NOT_NEGATIVE, POSITIVE, Bounds
-from ..runs.input_names import HALVINGS, STARTS
-from ..runs.loading_rate import HALVING_BOUNDS, LOADINGS
-from ..runs.output import FILMS, MOST_FRAMES
-from ..runs.run_spec import RunSpec
+from ..runs.groups import DECLARED, GrainOptions, LoadingOptions, OutputOptions, options_of
 from ..specimens.space.any_spec import SIZES
 from ..specimens.spec import SpecimenSpec
-from .parameters import Count, Name, Place, Quantity, Range, Rate, Seeds
+from .parameters import Count, Name, Place, Pressures, Quantity, Range, Rate, Seeds
 
 #: Adds an option to the function of a command.
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
@@ -49,58 +45,57 @@ def length_option(name: str, default: float, help_text: str, *, sizes: bool = Tr
     )
 
 
-def _by_test(value: Callable[[TestKind], float], option: str) -> str:
-    """A default and the tests that have another one."""
-    found: dict[float, list[str]] = {}
-    for name, kind in KINDS.items():
-        if option not in kind.without:
-            found.setdefault(value(kind), []).append(name)
-    usual, *others = found.items()
-    return "; ".join(
-        [f"{usual[0]:g}", *(f"{', '.join(tests)}: {number:g}" for number, tests in others)]
-    )
-
-
 rectangle_options = combined(
     length_option("--width", SIZES["rectangle"]["width"], "Width"),
     length_option("--height", SIZES["rectangle"]["height"], "Height"),
 )
 
 
-def _own_option(name: str, tests: dict[str, Option]) -> Decorator:
+def _type_of(one: Option, words: Sequence[str]) -> click.ParamType:
+    """Kind of the values of an option."""
+    if words:
+        return Name(*words)
+    if one.whole:
+        low, high = one.bounds.at_least, one.bounds.at_most
+        return Count(int(low or 0), None if high is None else int(high))
+    return Rate("", one.bounds) if one.name == "rate" else Quantity(one.unit, one.bounds)
+
+
+def _own_option(name: str, tests: Mapping[str, Option]) -> Decorator:
     """An option of some tests; where they differ the help tells of each."""
     first = next(iter(tests.values()))
     words = tuple(dict.fromkeys(word for one in tests.values() for word in one.choices))
-    kind = Name(*words) if words else Quantity(first.unit, first.bounds)
     plain = "|".join(words) if words and len(tests) == 1 else "NAME" if words else ""
+    text, default = told_of(tests)
     return click.option(
         f"--{name.replace('_', '-')}",
-        type=kind,
+        type=_type_of(first, words),
         metavar=plain or (first.unit or "x").upper(),
-        help=_own_help(tests),
+        help=f"{text}.  [default: {default}]",
     )
 
 
-def _own_help(tests: dict[str, Option]) -> str:
-    """What an option is, for which tests, its unit, and what stands for it."""
-    first = next(iter(tests.values()))
-    unit = f" [{first.unit}]" if first.unit else ""
-    what = _each({test: one.help for test, one in tests.items()})
-    those = f", for {' and '.join(tests)}" if what == first.help else ""
-    words = {test: ", ".join(one.choices) for test, one in tests.items()}
-    choices = f": {_each(words)}" if first.choices and len(tests) > 1 else ""
-    default = _each({test: one.default for test, one in tests.items()})
-    return f"{what}{those}{choices}{unit}.  [default: {default}]"
+def _options(group: type, *chosen: str) -> Decorator:
+    """Options that a group of a run declares, or some of them, in their order."""
+    found = options_of(group)
+    return combined(*(_option(group, found[name]) for name in chosen or found))
 
 
-def _each(texts: dict[str, str]) -> str:
-    """A text of several tests, once if all have the same one."""
-    found: dict[str, list[str]] = {}
-    for test, text in texts.items():
-        found.setdefault(text, []).append(test)
-    if len(found) == 1:
-        return next(iter(found))
-    return "; ".join(f"{', '.join(tests)}: {text}" for text, tests in found.items())
+def _option(group: type, one: Option) -> Decorator:
+    """An option of the command as a group of a run declares it."""
+    name, usual = f"--{one.name.replace('_', '-')}", getattr(group, one.name)
+    if usual is False:
+        return click.option(name, is_flag=True, help=f"{one.phrase}.")
+    found = bool(one.default) or usual in (None, "")  # by the run itself
+    told = f"  [default: {one.default}]" if one.default else ""
+    return click.option(
+        name,
+        type=_type_of(one, one.choices),
+        default=None if found else str(usual) if one.choices else usual,
+        metavar=one.metavar or "NAME",
+        show_default=not found,
+        help=f"{one.phrase}.{told}",
+    )
 
 
 own_options = combined(*(_own_option(name, tests) for name, tests in options().items()))
@@ -222,108 +217,21 @@ material_options = combined(
         metavar="KEY=VALUE",
         help="Change a value of the material; may be repeated.",
     ),
-    click.option(
-        "--points",
-        type=Name(*map(str, POINTS)),
-        default=str(RunSpec.points),
-        metavar="1|2|3",
-        show_default=True,
-        help="Points in each contact.",
-    ),
-    click.option(
-        "--mesh",
-        type=Name(*MESHES),
-        default=RunSpec.mesh,
-        metavar="fan|refined",
-        show_default=True,
-        help="Triangles in each grain.",
-    ),
+    _options(GrainOptions, "points", "mesh"),
 )
-model_options = combined(
-    click.option(
-        "--model",
-        type=Name(*MODELS),
-        default=RunSpec.model,
-        metavar="NAME",
-        show_default=True,
-        help="Model of the grains.",
-    ),
-    material_options,
+model_options = combined(_options(GrainOptions, "model"), material_options)
+range_option = _options(GrainOptions, "interaction_range")
+loading_options = _options(
+    LoadingOptions, *(name for name in options_of(LoadingOptions) if name != "confinement")
 )
-range_option = click.option(
-    "--interaction-range",
-    type=Quantity("", RANGE),
-    metavar="G",
-    help="For jcfpm and cohfrict: bond spheres nearer than G times the sum of their radii, too, 1 "
-    "to 2 [-].  [default: only neighbours]",
-)
-loading_options = combined(
-    click.option(
-        "--rate",
-        type=Rate("", POSITIVE),
-        default=RunSpec.rate,
-        metavar="F|auto",
-        show_default=True,
-        help="Factor on the loading rate [-]; auto: 1, and half of it again and again, up to "
-        f"{HALVINGS} times, until the test is slow enough.",
-    ),
-    click.option(
-        "--halvings",
-        type=Count(*(int(one or 0) for one in (HALVING_BOUNDS.at_least, HALVING_BOUNDS.at_most))),
-        metavar="N",
-        help="Halve the rate at most N times: a test that ends not_quasistatic is loaded again "
-        "until it is ok and the peaks of two rates agree within 1 %.  [default: never; "
-        f"{HALVINGS} with --rate auto]",
-    ),
-    click.option(
-        "--max-strain",
-        type=Quantity("", POSITIVE),
-        metavar="E",
-        help="Axial strain at which the test ends [-]. Without it a test under a confining "
-        f"pressure also ends on a plateau, once the deviator has been constant over "
-        f"{100.0 * PLATEAU_STRAIN:g} % of strain.  [default: by the reference strength, times "
-        f"{_by_test(lambda kind: kind.largest_strain, 'max_strain')}]",
-    ),
-    click.option(
-        "--stop-ratio",
-        type=Quantity("", POSITIVE),
-        metavar="F",
-        help="The test ends once the deviator, the axial stress minus the least confining "
-        "pressure, has fallen to this part of its peak [-].  "
-        f"[default: {_by_test(lambda kind: kind.stop_ratio, 'stop_ratio')}]",
-    ),
-    click.option("--dynamic", is_flag=True, help="Real masses and time instead of scaled masses."),
-    click.option(
-        "--gravity",
-        type=Quantity("m/s2", NOT_NEGATIVE),
-        default=RunSpec.gravity,
-        metavar="G",
-        show_default=True,
-        help="Acceleration downwards, with --dynamic only [m/s2].",
-    ),
-    click.option(
-        "--damping",
-        type=Quantity("", Bounds(at_least=0.0, below=1.0)),
-        metavar="A",
-        help="Local damping of the loading [-]; what falls freely gains (1 - A) g.  [default: 0.7; "
-        "0 with --dynamic]",
-    ),
-    click.option(
-        "--start",
-        type=Name(*STARTS),
-        metavar="rest|static",
-        help="static: from the elastic solution below the first crack, for the flexible model in "
-        f"{' and '.join(names(lambda kind: bool(kind.static_models)))}; it is the default of "
-        f"{' and '.join(names(lambda kind: kind.static_first))}.",
-    ),
-    click.option(
-        "--loading",
-        type=Name(*LOADINGS),
-        metavar="constant|adaptive|waiting",
-        help="waiting: load fast, and nearly stand still while a crack runs; the default of "
-        "flexible and rigid grains with scaled masses. adaptive: load faster while the specimen is "
-        "elastic; the default of inner particles unless contacts are brittle.",
-    ),
+confinement_option = click.option(
+    "--confinement",
+    type=Pressures("Pa", NOT_NEGATIVE),
+    default=str(LoadingOptions.confinement),
+    metavar="PA[,PA]",
+    show_default=True,
+    help=f"{DECLARED['confinement'].help}; with a comma that on the sides of a box across x, and "
+    "the --second-confinement [Pa].",
 )
 drawn_mesh_option = click.option(
     "--mesh",
@@ -347,22 +255,7 @@ report_option = click.option(
     default=True,
     help="Write no report.html.",
 )
-frames_options = combined(
-    click.option(
-        "--frames",
-        type=Count(0, MOST_FRAMES),
-        default=0,
-        metavar="N",
-        help="Write the state at even strains, N up to the strain of the reference strength, and "
-        "around the peak, for ParaView; fewer if the test ends before or has fewer rows.",
-    ),
-    click.option(
-        "--film",
-        type=Name(*FILMS),
-        metavar="gif|mp4",
-        help="Write a film of the frames, 40 if their number is not given; mp4 needs ffmpeg.",
-    ),
-)
+frames_options = _options(OutputOptions, "frames", "film")
 quiet_option = click.option("--quiet", is_flag=True, help="Show no progress.")
 study_seeds_option = click.option(
     "--seeds",

@@ -10,7 +10,7 @@ import click
 
 from ..errors import InputError
 from ..require import ANY, POSITIVE, Bounds, require_known, require_number, require_whole
-from ..runs.input_names import AUTO
+from ..runs.groups import AUTO
 
 
 class Quantity(click.ParamType):

@@ -12,10 +12,10 @@ import click
 from .._version import __version__
 from ..errors import InputError, SimulationError
 from ..files import Table, json_text, load_json, write_text
-from ..kinds.registry import ELASTIC, KINDS, TESTS, names
+from ..kinds.registry import ELASTIC, KINDS, TESTS
 from ..materials.material import Material
 from ..report import tables
-from ..require import NOT_NEGATIVE, require_known
+from ..require import require_known
 from ..runs.asked import differences, read_inputs, read_own
 from ..runs.output import Output, refuse_other_result
 from ..runs.run_inputs import RunInputs
@@ -23,7 +23,6 @@ from ..runs.run_spec import RunSpec
 from ..text import name_of
 from . import inputs, packings, terminal
 from . import options as cli_options
-from .parameters import Pressures
 from .solids import cylinder_diameter, shape_options, solve_shape_options
 
 if TYPE_CHECKING:
@@ -51,15 +50,7 @@ _discard_option = click.option(
 @cli_options.seeds_options
 @cli_options.specimen_option
 @cli_options.cut_options
-@click.option(
-    "--confinement",
-    type=Pressures("Pa", NOT_NEGATIVE),
-    default=str(RunSpec.confinement),
-    metavar="PA[,PA]",
-    show_default=True,
-    help=f"Lateral pressure, for {' and '.join(names(lambda kind: kind.confined))}; with a comma "
-    "that on the sides of a box across x, and the --second-confinement [Pa].",
-)
+@cli_options.confinement_option
 @cli_options.loading_options
 @cli_options.range_option
 @cli_options.threads_option

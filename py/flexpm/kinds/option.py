@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Options that only some tests have: of the command, of studies, of result.json. SI units."""
+"""Options of the command, of studies and of result.json, and their texts. SI units."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ PRESSURE = Bounds(above=0.0, at_most=1e15)
 
 @dataclass(frozen=True)
 class Option:
-    """One option of a test.
+    """One option of a run.
 
-    Several tests may have one of the same name: it is one option of the command, whose help tells
-    the default of each.
+    Several tests may have an option of the same name: it is one option of the command, whose help
+    has the default of each.
     """
 
     name: str
@@ -34,6 +34,36 @@ class Option:
     open: str = ""  #: what a page says if the run itself finds the value; empty: none has to
     size: str = ""  #: size of the specimen that it is another name of
     models: tuple[str, ...] = ()  #: that have it; none: all of the test
+    whole: bool = False  #: a whole number
+    metavar: str = ""  #: placeholder in the help of the command; empty: by choices or unit
+
+    @property
+    def phrase(self) -> str:
+        """Help with the unit."""
+        return f"{self.help} [{self.unit}]" if self.unit else self.help
+
+
+def told_of(tests: Mapping[str, Option]) -> tuple[str, str]:
+    """Help with the unit, and default, of an option by the tests that have it."""
+    first = next(iter(tests.values()))
+    what = _each({test: one.help for test, one in tests.items()})
+    those = f", for {' and '.join(tests)}" if what == first.help else ""
+    words = {test: ", ".join(one.choices) for test, one in tests.items()}
+    choices = f": {_each(words)}" if first.choices and len(tests) > 1 else ""
+    unit = f" [{first.unit}]" if first.unit else ""
+    return f"{what}{those}{choices}{unit}", _each(
+        {test: one.default for test, one in tests.items()}
+    )
+
+
+def _each(texts: Mapping[str, str]) -> str:
+    """A text of several tests, once if all have the same one."""
+    found: dict[str, list[str]] = {}
+    for test, text in texts.items():
+        found.setdefault(text, []).append(test)
+    if len(found) == 1:
+        return next(iter(found))
+    return "; ".join(f"{', '.join(tests)}: {text}" for text, tests in found.items())
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ from ..materials.mixing import from_description
 from ..results.result_checks import FINISHED, SO_FAR
 from ..specimens.space.any_spec import SIZES, AnySpec, field_names, spec_of
 from ..specimens.spec import GRAINS_FILE
+from .groups import DECLARED
 from .input_names import INPUT_UNITS, unused
 from .run_inputs import RunInputs
 from .run_spec import LABELS, RunSpec, described, law_of
@@ -38,8 +39,7 @@ _NESTED = ("specimen", "material", "own")
 _AGAIN = ("From its one file:", "flexpm rerun result.json")
 #: What stands for None: an input that the loading finds, and the first kind of control.
 _OPEN = {
-    "max_strain": "by the reference strength",
-    "halvings": "none",
+    **{name: one.open for name, one in DECLARED.items() if one.open},
     **{name: one.open for name, of in options().items() for one in of.values() if one.open},
 }
 #: Entries of result.json that depend on the machine or the version.

@@ -9,16 +9,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import cast
 
+from ..dimensions import FEATURES
 from ..errors import InputError
 from ..kinds.registry import KINDS, kind_of, options
 from ..kinds.test_kind import TestKind
 from ..models.options import SPHERE_MODELS
 from ..require import quoted
 from ..specimens.space.any_spec import SIZES
+from .groups import AUTO, DECLARED, HALVINGS, OWN_OPTIONS
 
-#: ``rest``: unloaded, with the velocities of the elastic solution; ``static``: at that solution,
-#: where the first contact point is about to leave its elastic branch.
-STARTS = ("rest", "static")
 #: Sizes of all shapes.
 _SIZES = tuple(dict.fromkeys(name for sizes in SIZES.values() for name in sizes))
 
@@ -38,7 +37,7 @@ def _unused(kind: TestKind) -> tuple[str, ...]:
 #: Options that a test has no use for.
 UNUSED = {name: _unused(kind) for name, kind in KINDS.items()}
 #: Options that no 3D specimen has; the first is one of its packing.
-OF_THE_PLANE = ("thickness", "points", "mesh", "dynamic", "gravity", "start")
+OF_THE_PLANE = tuple(name for name in ("thickness", *DECLARED) if name in FEATURES)
 
 
 def unused(test: str, shape: object = None) -> tuple[str, ...]:
@@ -56,23 +55,14 @@ def unused(test: str, shape: object = None) -> tuple[str, ...]:
 INPUT_UNITS = {
     **dict.fromkeys((*_SIZES, "thickness", "diameters", "joint_origin"), "m"),
     **{name: one.unit for name, of in options().items() for one in of.values() if one.unit},
-    "confinement": "Pa",
-    "gravity": "m/s2",
+    **{name: one.unit for name, one in DECLARED.items() if one.unit},
 }
 #: Options of how a specimen is packed.
 PACKING = ("thickness", "diameters", "porosity", "seed")
-#: Options of a run that not all tests have, and those that are other names of sizes.
-OWN_OPTIONS = tuple(name for name, of in options().items() if not any(o.size for o in of.values()))
+#: Options of tests that are other names of sizes.
 _OTHER_NAMES = tuple(name for name in options() if name not in OWN_OPTIONS)
 #: Options of what is done with it.
-SIMULATION = (
-    *("model", "points", "mesh", "confinement", "rate", "max_strain", "stop_ratio"),
-    *("dynamic", "gravity", "damping", "start", "loading"),
-    *OWN_OPTIONS,
-    *("interaction_range", "halvings"),
-)
-#: Rate of a test that is to find one at which it is slow enough: 1, halved up to so many times.
-AUTO, HALVINGS = "auto", 5
+SIMULATION = (*DECLARED, *OWN_OPTIONS)
 #: Options that are sizes of the specimen.
 SIZE_NAMES = (*_SIZES, *_OTHER_NAMES)
 #: Options of the command by their names.

@@ -11,14 +11,11 @@ from ..errors import InputError
 from ..files import read_json
 from ..require import Bounds, require_one_of, require_whole
 from ..results.result_checks import FINISHED, SO_FAR
+from .groups import FILM_FRAMES, FILMS, MOST_FRAMES, OutputOptions
 from .run_spec import RunSpec
 
 #: Name of the picture of a fracture network.
 ROSE = "network.png"
-#: Kinds of films: a picture that moves, and a film that needs ffmpeg.
-FILMS = ("gif", "mp4")
-#: Frames of a film if no number is given; more than the most are a mistake.
-FILM_FRAMES, MOST_FRAMES = 40, 1000
 #: Name of the file with the numbers of a run.
 RESULT = FINISHED
 #: Files by which a folder is known, and what has left them.
@@ -85,19 +82,8 @@ def refuse_other_result(folder: Path, spec: RunSpec) -> None:
 
 
 @dataclass(frozen=True)
-class Output:
-    """What can be left out or asked for.
-
-    Attributes:
-        report: Write report.html.
-        frames: Write the state at even strains, this many up to the strain of the reference
-            strength, and around the peak; fewer if the test ends before or has fewer rows. 0: none.
-        film: ``gif`` or ``mp4``, made of the frames; None for none.
-    """
-
-    report: bool = True
-    frames: int = 0
-    film: str | None = None
+class Output(OutputOptions):
+    """Files that a run writes in addition to its results, checked and complete."""
 
     def __post_init__(self) -> None:
         frames = require_whole("run: frames", self.frames, Bounds(at_least=0, at_most=MOST_FRAMES))

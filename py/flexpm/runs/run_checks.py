@@ -30,7 +30,8 @@ from ..require import (
     require_one_of,
     require_whole,
 )
-from .input_names import AUTO, OF_THE_PLANE, OWN_OPTIONS, STARTS, UNUSED, with_unit
+from .groups import AUTO, OWN_OPTIONS, STARTS
+from .input_names import OF_THE_PLANE, UNUSED, with_unit
 from .loading_rate import HALVING_BOUNDS, LARGEST_STOP_RATIO, LOADINGS, RATE, WAITING_MODELS
 from .run_inputs import RunInputs
 

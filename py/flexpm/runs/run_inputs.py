@@ -4,90 +4,47 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 
 from ..dimensions import is_solid
 from ..files import Table
 from ..kinds.model_names import BLOCK_MODELS
 from ..kinds.option import Value
 from ..kinds.registry import kind_of
-from ..kinds.test_kind import STOP_RATIO, TestKind
+from ..kinds.test_kind import TestKind
 from ..materials.mixing import is_brittle
 from ..models.options import DAMPING, GRAIN_MODELS, local_damping
 from ..specimens.space.any_spec import AnySpec
 from ..specimens.space.spec import SolidSpec
+from .groups import GrainOptions, LoadingOptions, TestOptions
 from .loading_rate import WAITING_MODELS
 
 
 @dataclass(frozen=True)
-class RunInputs:
-    """The inputs of a run. What it runs on, threads and folders, is no part of it.
-
-    A field that is added later has a default that stands for the runs of before; then no key
-    changes. Start and loading follow from test and model unless they are given.
+class Tested:
+    """What is tested.
 
     Attributes:
         test: One of ``TESTS``, or ``ELASTIC``.
         specimen: What the specimen is made from.
         material: Its ``name`` and the parameters in effect for the model, see ``described``.
-        model: Name of the model.
-        points: Contact points per contact.
-        mesh: Triangles in each grain, ``refined`` or ``fan``.
-        confinement: Lateral pressure [Pa].
-        rate: Factor on the default loading rate [-], of the first loading where it is halved.
-        max_strain: Axial strain at which the test ends [-]; None for a multiple of that of the
-            reference strength.
-        stop_ratio: Part of its peak to which the deviator falls before the test ends [-].
-        dynamic: Real masses and time instead of scaled masses and unit steps.
-        gravity: Acceleration downwards [m/s2].
-        start: How the loading begins, one of ``STARTS``; empty: ``static`` for tension of the
-            flexible model with scaled masses, else ``rest``.
-        loading: How the loading goes on, one of ``LOADINGS``; empty: ``waiting`` for flexible and
-            rigid grains with scaled masses, ``adaptive`` for inner particles unless contacts are
-            brittle, else ``constant``.
-        span: As this and the next ones are of the tests that have them, see ``kinds``; None for
-            other tests.
-        notch: Depth [m].
-        normal_stress: On the specimen [Pa].
-        max_displacement: At which the test ends [m]; None for a multiple of that at its reference
-            strength.
-        wave: Name of the wave.
-        control: What grows at the rate; None: the way of the ends.
-        damping: Local damping alpha [-] of the loading; None: 0.7, as always before it could be
-            chosen. With real masses it is 0 unless it is given; a specimen is settled under its
-            confinement with 0.7 at least. None for tests that have none.
-        interaction_range: Multiple of the sum of both radii up to which YADE's spheres are bonded
-            [-]; None: only neighbours, and for other models.
-        halvings: How often the rate may be halved until the test is slow enough, see
-            ``laboratory.halving``; None: never, the test is done once.
-        own: Options of the test that are no fields, by their names.
     """
 
     test: str
     specimen: AnySpec
     material: Table
-    model: str = "flexible"
-    points: int = 3
-    mesh: str = "refined"
-    confinement: float = 0.0
-    rate: float = 1.0
-    max_strain: float | None = None
-    stop_ratio: float = STOP_RATIO
-    dynamic: bool = False
-    gravity: float = 0.0
-    start: str = ""
-    loading: str = ""
-    span: float | None = None
-    notch: float | None = None
-    normal_stress: float | None = None
-    max_displacement: float | None = None
-    wave: str | None = None
-    control: str | None = None
-    damping: float | None = None
-    interaction_range: float | None = None
-    halvings: int | None = None
-    own: Mapping[str, Value] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class RunInputs(TestOptions, LoadingOptions, GrainOptions, Tested):
+    """The inputs of a run: its groups, flat. Threads and folders are no part of it.
+
+    A field that is added later has a default that stands for the runs of before; then no key
+    changes. Start and loading follow from test and model unless they are given; the rate is that of
+    the first loading where it is halved. A damping of None is 0.7, as always before it could be
+    chosen; with real masses it is 0 unless it is given, and a specimen is settled under its
+    confinement with 0.7 at least.
+    """
 
     def to_json(self) -> Table:
         """All fields as JSON has them, the test's own options beside them: no tuples."""

@@ -20,7 +20,8 @@ from ..materials.mixing import description, is_brittle
 from ..models.options import DAMPING
 from ..require import require_known
 from ..specimens.space.any_spec import SIZES, AnySpec, field_names, spec_of, spec_type
-from .input_names import OWN_OPTIONS, PACKING, SIMULATION, paced, shape_of
+from .groups import OWN_OPTIONS
+from .input_names import PACKING, SIMULATION, paced, shape_of
 from .run_checks import require_shape, settle
 from .run_inputs import RunInputs
 
@@ -28,6 +29,8 @@ __all__ = ["ELASTIC", "TESTS", "RunSpec"]
 
 #: Entries of a described material on which no result depends.
 LABELS = ("name", "made_for")
+#: Options that follow from the test unless they are given.
+_OF_TEST = ("start", "loading", "stop_ratio")
 #: Number of the way in which keys are made. A field that gets another default needs another number:
 #: keys leave defaults out.
 SCHEMA = 1
@@ -76,9 +79,32 @@ class RunSpec(RunInputs):
         given = {name: value for name, value in options.items() if value is not None}
         specimen = cls.packed(test, given) if specimen is None else specimen
         others = {name: given[name] for name in SIMULATION if name in given}
-        others.setdefault("stop_ratio", kind_of(test).stop_ratio)
-        model = others.get("model", cls.model)
-        return cls(test, specimen, described(material, model), **split(others))
+        return cls.asked(test, specimen, material, others)
+
+    @classmethod
+    def asked(
+        cls, test: str, specimen: AnySpec, material: Material, options: Mapping[str, object]
+    ) -> RunSpec:
+        """Describe a run by its options alone.
+
+        Args:
+            test: Name of the test.
+            specimen: What the specimen is made from.
+            material: The material, with all changes.
+            options: Values by the names of ``input_names.SIMULATION``; one that is left out has its
+                default, and so have those that follow from the test if they are None.
+
+        Raises:
+            InputError: for another name, or a value out of range.
+        """
+        given = {
+            name: value
+            for name, value in options.items()
+            if value is not None or name not in _OF_TEST
+        }
+        given.setdefault("stop_ratio", kind_of(test).stop_ratio)
+        model = str(given.get("model", cls.model))
+        return cls(test, specimen, described(material, model), **split(given))
 
     @staticmethod
     def packed(test: str, options: Table) -> AnySpec:

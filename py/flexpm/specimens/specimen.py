@@ -399,6 +399,10 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         }
 
 
+#: Specimens of both dimensions.
+AnySpecimen = Specimen | SolidSpecimen
+
+
 def require_specimen(where: str, given: object) -> None:
     """Refuse what is no specimen of the plane.
 

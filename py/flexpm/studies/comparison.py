@@ -10,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar, Unpack
 
 from ..dimensions import is_solid
 from ..errors import InputError, SimulationError
 from ..files import Table, csv_text, output_folder, write_text
-from ..kinds.registry import kind_of
 from ..laboratory.carrying_out import carry_out
 from ..laboratory.plan import plan_run, require_tested
 from ..materials.material import Material, default_name
@@ -28,11 +27,11 @@ from ..report.words import Shown, words_of_test
 from ..results.result import Result
 from ..results.strength import Envelope
 from ..runs.checkpoint import INTERVAL
+from ..runs.groups import SharedOptions, options_of
 from ..runs.input_names import ranges
 from ..runs.output import Output
-from ..runs.run_spec import RunSpec, described, split
-from ..specimens.space.specimen import SolidSpecimen
-from ..specimens.specimen import Specimen
+from ..runs.run_spec import RunSpec
+from ..specimens.specimen import AnySpecimen
 from ..text import name_of
 from .jobs import place_of
 
@@ -121,14 +120,16 @@ class Comparison:
 
 def compare(
     test: str,
-    specimen: Specimen | SolidSpecimen,
+    specimen: AnySpecimen,
     models: Sequence[str] = ("flexible", "rigid"),
     material: Material | str | Mapping[str, Material | str] | None = None,
     *,
     confinements: Sequence[float] = (0.0,),
     out: Path | str | None = None,
     progress: Progress | None = None,
-    **options: Any,
+    threads: int = 1,
+    checkpoint_interval: float = INTERVAL,
+    **options: Unpack[SharedOptions],
 ) -> Comparison:
     """Run a test with several models, or under several confinements, on one packing.
 
@@ -145,7 +146,9 @@ def compare(
         confinements: Lateral pressures [Pa], for ``biaxial``; two or more give an envelope.
         out: Folder for tables and pictures, with a folder for each run; None writes nothing.
         progress: Called with (steps done, steps expected, text).
-        options: Others of :func:`flexpm.run`, for all runs.
+        threads: Threads of a step; results do not depend on it.
+        checkpoint_interval: Wall time between two checkpoints [s], > 0.
+        options: Keywords of :func:`flexpm.run`, for all runs.
 
     Returns:
         The results and the strength envelopes.
@@ -155,22 +158,23 @@ def compare(
     """
     require_tested("compare", specimen)
     folder = None if out is None else output_folder(out)
-    threads, interval = options.pop("threads", 1), options.pop("checkpoint_interval", INTERVAL)
-    report = options.pop("report", True)
-    output = Output(False, options.pop("frames", 0), options.pop("film", None))
-    shared = {name: value for name, value in options.items() if value is not None}
-    shared.setdefault("stop_ratio", kind_of(test).stop_ratio)
+    shared: Table = {name: value for name, value in options.items() if value is not None}
+    report = bool(shared.pop("report", True))
+    given = {name: shared.pop(name) for name in options_of(Output) if name in shared}
+    output = Output(**{"report": False, **given})
     farthest = ranges(models, shared.pop("interaction_range", None))
     cases = [
         Case(
-            RunSpec(
+            RunSpec.asked(
                 test,
                 specimen.spec,
-                described(chosen, model),
-                model,
-                confinement=confinement,
-                interaction_range=farthest[model],
-                **split(shared),
+                chosen,
+                {
+                    "model": model,
+                    "confinement": confinement,
+                    "interaction_range": farthest[model],
+                    **shared,
+                },
             ),
             chosen,
         )
@@ -180,7 +184,7 @@ def compare(
     if folder is not None:
         _give_folders(cases, folder)
     plans = [
-        plan_run(case.spec, specimen, case.material, case.folder, interval, output)
+        plan_run(case.spec, specimen, case.material, case.folder, checkpoint_interval, output)
         for case in cases
     ]
     for number, (case, plan) in enumerate(zip(cases, plans, strict=True), 1):
