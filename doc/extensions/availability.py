@@ -10,16 +10,31 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 
 
-def _table(head: Sequence[str], rows: Iterator[Sequence[str]], widths: Sequence[int]) -> nodes.table:
-    """A table of plain text."""
+#: Text of a cell, or names of the interface.
+Cell = str | tuple[str, ...]
+
+
+def _table(
+    head: Sequence[Cell], rows: Iterator[Sequence[Cell]], widths: Sequence[int]
+) -> nodes.table:
+    """A table with a head."""
     group = nodes.tgroup(cols=len(widths))
     group += [nodes.colspec(colwidth=width) for width in widths]
     group += [nodes.thead("", _row(head)), nodes.tbody("", *map(_row, rows))]
     return nodes.table("", group)
 
 
-def _row(cells: Sequence[str]) -> nodes.row:
-    return nodes.row("", *(nodes.entry("", nodes.paragraph("", text)) for text in cells))
+def _row(cells: Sequence[Cell]) -> nodes.row:
+    return nodes.row("", *(nodes.entry("", _paragraph(one)) for one in cells))
+
+
+def _paragraph(cell: Cell) -> nodes.paragraph:
+    if isinstance(cell, str):
+        return nodes.paragraph("", cell)
+    names = nodes.paragraph()
+    for number, name in enumerate(cell):
+        names += [nodes.Text(", ")] * (number > 0) + [nodes.literal(name, name)]
+    return names
 
 
 class TestsByDimension(Directive):
@@ -53,11 +68,11 @@ class FeaturesByDimension(Directive):
         return [_table(head, self._rows(), (20, 34, 10, 36))]
 
     @staticmethod
-    def _rows() -> Iterator[Sequence[str]]:
+    def _rows() -> Iterator[Sequence[Cell]]:
         from flexpm.dimensions import FEATURES
 
         for one in FEATURES.values():
-            yield one.words, ", ".join(one.asked), f"{one.dimension}D", one.instead
+            yield one.words, one.asked, f"{one.dimension}D", one.instead
 
 
 def setup(app: Any) -> dict[str, bool]:
