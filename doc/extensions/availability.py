@@ -9,7 +9,6 @@ from typing import Any
 from docutils import nodes
 from docutils.parsers.rst import Directive
 
-
 #: Text of a cell, or names of the interface.
 Cell = str | tuple[str, ...]
 
