@@ -3,6 +3,7 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
+#include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 
 #include "assembly/members.hpp"

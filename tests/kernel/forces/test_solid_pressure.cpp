@@ -6,7 +6,7 @@
 #include <flexpm/kernel/measure/solid_balance.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
-#include <flexpm/kernel/topology/solid_loose.hpp>
+#include <flexpm/kernel/topology/loose_grains.hpp>
 #include <flexpm/kernel/view/solid_snapshot.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>

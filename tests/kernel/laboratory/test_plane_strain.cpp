@@ -10,7 +10,6 @@
 #include <flexpm/kernel/measure/energy_sums.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
-#include <flexpm/kernel/topology/solid_loose.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>

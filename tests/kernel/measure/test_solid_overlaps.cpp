@@ -7,7 +7,7 @@
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/measure/solid_overlaps.hpp>
 #include <flexpm/kernel/view/solid_snapshot.hpp>
-#include <flexpm/kernel/laboratory/solid_softening.hpp>
+#include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 
 #include "support/solid_states.hpp"

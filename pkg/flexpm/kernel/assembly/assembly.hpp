@@ -23,6 +23,16 @@ struct Assembly : BondedState {
     // derived
     StepPlan plan;
 
+    /// Grain of each facet of the boundary, and the pressures on them [Pa].
+    const std::vector<int>& facet_grains() const { return facets.grain; }
+    const std::vector<double>& pressures() const { return facets.pressure; }
+
+    /// Whether the spin of a rigid grain is given.
+    bool is_spin_held(int grain) const
+    {
+        return grains.is_rigid(grain) && grains.spin_prescribed[grains.slot[grain]];
+    }
+
     bool has_gravity() const { return gravity.x != 0.0 || gravity.y != 0.0 || gravity.z != 0.0; }
 
     /// What the plane leaves out: area of a facet and volume of a section, from what is seen of

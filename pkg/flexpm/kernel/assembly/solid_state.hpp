@@ -345,6 +345,13 @@ struct SolidState : BondedState {
     std::vector<HeldFace> held_faces;
     SolidPlan plan;  ///< derived, never saved
 
+    /// Grain of each surface triangle, and the pressures on them [Pa]; empty: there was never one.
+    const std::vector<int>& facet_grains() const { return surface.grain; }
+    const std::vector<double>& pressures() const { return surface.pressure; }
+
+    /// Whether the spin of a rigid grain is given.
+    bool is_spin_held(int grain) const { return !bodies.empty() && bodies[grain].spin_held; }
+
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
     {
         BondedState::visit_members(s, visit);

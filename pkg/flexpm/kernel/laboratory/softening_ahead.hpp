@@ -10,9 +10,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
-
-#include <limits>
-#include <vector>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 
 namespace flexpm {
 
@@ -23,43 +21,26 @@ struct SofteningRule {
     double crossing = 1.0;  ///< steps in which a wave crosses the specimen
 };
 
-/// Way of a point to its strength.
-struct Approach {
-    double time = std::numeric_limits<double>::infinity();  ///< until it is reached [s]
-    double growth = 0.0;  ///< of the traction in a unit of time, over that at the strength [1/s]
-};
-
-/// The earlier of two.
-Approach earlier(const Approach& one, const Approach& other);
-
-/// What a point on its way asks of the loading.
-struct SofteningBound {
-    double factor;  ///< on the velocity, at most [-]
-    double untold;  ///< area, the larger the less its damage tells [m^2]
-};
-
-/// Bound of a point whose damage tells a share of what it dissipates.
-SofteningBound softening_bound(
-    const Approach& to, double area, double telling, double crossing, double growth);
-
-/// Factor that all bounds allow but those of few points, see factor_before_softening().
-/// @param cut  area of a cut through the specimen [m^2]
-double factor_of(std::vector<SofteningBound> bounds, double cut);
-
 /// Time at `velocity` after which the first contact point of the unloaded assembly leaves its
 /// elastic branch, at small displacements [s]; infinite if none does.
 double elastic_time(const Assembly& a, const Array<double>& velocity);
+
+/// Strain, positive, along `sense` (-1: compression) times a field of strain 1 at which the first
+/// point of the unloaded specimen leaves its elastic branch [-]; infinite if none does.
+double elastic_strain(const SolidState& s, const SolidField& field, double sense);
 
 /// Factor on a velocity of the loading that brings its points to their strengths slowly enough [-];
 /// infinite if few enough are on the way there. A point's distance to its strength may shrink by 1
 /// / e in a crossing, or its traction grow by `growth`. Of the points that are elastic still, or
 /// bear friction and do not slide, those may be faster that make up a twentieth of a cut through a
-/// square as large as the specimen.
+/// square or a cube as large as the specimen.
 ///
-/// @param velocity  of all nodes in that motion, see loading_field() [m/s]
+/// @param velocity  of all nodes in that motion, see loading_field() [m/s]; in 3D the motion that
+///                  the loading gives
 /// @param dt        time step [s]
 /// @throws std::invalid_argument  if a number of the rule is not above zero
 double factor_before_softening(
     const Assembly& a, const Array<double>& velocity, double dt, const SofteningRule& rule);
+double factor_before_softening(const SolidState& s, double dt, const SofteningRule& rule);
 
 }  // namespace flexpm

@@ -2,7 +2,6 @@
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
@@ -20,7 +19,6 @@ namespace flexpm {
 namespace {
 
 constexpr int axial = 2;
-constexpr int turn_values = 4;         ///< of a quaternion in SteadyMotion::angle
 constexpr double small_strain = 1e-7;  ///< at which stretch and turns are linear, but no round-off
 
 std::vector<int> need_nodes(const SolidState& s, SolidSide side)
@@ -73,68 +71,6 @@ bool is_held(const SolidState& s)
 void need_held(const SolidState& s)
 {
     if (!is_held(s)) refuse("held ends", 0.0, "", "must be 2; call hold_ends() first");
-}
-
-Array<double> turns(const SolidState& s)
-{
-    Array<double> found;
-    for (const RigidBody& body : s.bodies)
-        found.insert(found.end(), { body.turn.w, body.turn.v.x, body.turn.v.y, body.turn.v.z });
-    return found;
-}
-
-/// Small turn from one rotation to another as a vector [rad].
-Vector turn_between(const Quaternion& from, const Quaternion& to)
-{
-    const Quaternion between = to * inverse(from);
-    const double sine = norm(between.v);
-    if (sine == 0.0) return {};
-    const double half = std::atan2(sine, std::fabs(between.w));
-    return ((between.w < 0.0 ? -2.0 : 2.0) * half / sine) * between.v;
-}
-
-/// Mean of a motion, no faster than a bound.
-Vector bounded(Vector mean, double fastest)
-{
-    const double size = norm(mean);
-    return size > fastest ? (fastest / size) * mean : mean;
-}
-
-/// Mean motion since the last look; of a rigid grain the centre alone has a velocity that counts.
-void take_mean(SolidState& s, double time, double fastest)
-{
-    const Grains& grains = s.grains;
-    SteadyMotion& steady = s.steady;
-    const auto take = [&](int node) {
-        const Vector way =
-            space_vector(grains.displacement, node) - space_vector(steady.displacement, node);
-        const Vector mean = bounded((1.0 / time) * way, fastest);
-        const double values[] = { mean.x, mean.y, mean.z };
-        for (int axis = 0; axis < grains.layout.dimension; ++axis) {
-            const int i = grains.component(node, axis);
-            if (!grains.prescribed[i]) steady.mean.velocity[i] = values[axis];
-        }
-    };
-    for (int g = 0; g < grains.count; ++g) {
-        const bool turns = grains.is_rigid(g) && !s.bodies[g].spin_held;
-        if (grains.loose[g]) {
-            damp_loose(grains, steady.mean, g);
-            if (turns) set_space_vector(steady.mean.spin, 3 * g, {});
-            continue;
-        }
-        if (!grains.is_rigid(g)) {
-            for (int n = 0; n < grains.nodes_of(g); ++n)
-                take(grains.node(g, n));
-            continue;
-        }
-        take(grains.centre(g));
-        if (!turns) continue;
-        const double* then = &steady.angle[turn_values * g];
-        const Quaternion before { then[0], { then[1], then[2], then[3] } };
-        const Vector turn = turn_between(before, s.bodies[g].turn);
-        set_space_vector(
-            steady.mean.spin, 3 * g, bounded((1.0 / time) * turn, fastest / grains.radius[g]));
-    }
 }
 
 /// Faces of a grain on a side.
@@ -255,21 +191,5 @@ double top_velocity(const SolidState& s)
     need_held(s);
     return velocity_of(s, drive_of_top(s));
 }
-
-void follow_steady_motion(SolidState& s, double dt, double fastest)
-{
-    check_positive("time step", dt, "s");
-    check_positive("fastest descent", fastest, "m/s");
-    if (!s.steady.is_followed()) {
-        s.steady.mean = s.loading.grains;
-    } else if (s.step > s.steady.step) {
-        take_mean(s, static_cast<double>(s.step - s.steady.step) * dt, fastest);
-    }
-    s.steady.displacement = s.grains.displacement;
-    s.steady.angle = turns(s);
-    s.steady.step = s.step;
-}
-
-void end_steady_motion(SolidState& s) { s.steady = {}; }
 
 }  // namespace flexpm

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Ends of a specimen in space that move along z, and the motion that they give to it:
-/// end_displacement.hpp, loading_motion.hpp and steady_motion.hpp there. Ends are free laterally.
-/// Nodes of deformable grains are driven, rigid ones, and discs of any, lie between plates. SI
-/// units, tension positive.
+/// @file  Ends of a specimen in space that move along z, and the motion that they give to it. Ends
+/// are free laterally. Nodes of deformable grains are driven, rigid ones, and discs of any, lie
+/// between plates. SI units, tension positive.
 #pragma once
 
 #include <flexpm/kernel/statics/elastic_constants.hpp>
@@ -71,14 +70,5 @@ ElasticConstants constants_between_ends(SolidState s);
 
 /// Velocity of the top [m/s].
 double top_velocity(const SolidState& s);
-
-/// Let damping leave alone the mean motion since the last look, from the second look on
-/// (deviation D55).
-///
-/// @param fastest  of that motion [m/s]; the rim of a rigid grain turns no faster
-void follow_steady_motion(SolidState& s, double dt, double fastest);
-
-/// Let it leave alone that of the loading again.
-void end_steady_motion(SolidState& s);
 
 }  // namespace flexpm

@@ -7,7 +7,7 @@
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/parts/solid_jaws.hpp>
 #include <flexpm/kernel/parts/solid_sets.hpp>
-#include <flexpm/kernel/laboratory/solid_softening.hpp>
+#include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/parts/surface_pieces.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/measure/solid_energies.hpp>

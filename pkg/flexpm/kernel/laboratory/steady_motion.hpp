@@ -10,19 +10,21 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
 
 namespace flexpm {
 
-/// Let damping leave alone the mean motion since the last look, from the second look on.
+/// Let damping leave alone the mean motion since the last look, from the second look on. Loose
+/// grains have no part in the descent: all of their motion is damped (deviation D57).
 ///
-/// @param dt  time step [s]
-void follow_steady_motion(Assembly& a, double dt, double fastest);
+/// @param dt       time step [s]
+/// @param fastest  of that motion [m/s]; the rim of a rigid grain turns no faster
+template <class State> void follow_steady_motion(State& s, double dt, double fastest);
+
+extern template void follow_steady_motion(Assembly& s, double dt, double fastest);
+extern template void follow_steady_motion(SolidState& s, double dt, double fastest);
 
 /// Let it leave alone that of the loading again.
-void end_steady_motion(Assembly& a);
-
-/// Damp all of the motion of a grain that has come loose, in the plane or in space: it has no part
-/// in the descent (deviation D57). Spins are the caller's.
-void damp_loose(const Grains& grains, GrainMotion& mean, int grain);
+void end_steady_motion(BondedState& s);
 
 }  // namespace flexpm

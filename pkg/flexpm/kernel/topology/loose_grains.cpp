@@ -3,6 +3,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/loose_groups.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
 
 #include <algorithm>
@@ -12,40 +13,57 @@ namespace flexpm {
 
 namespace {
 
-bool presses_any(const Assembly& a)
+/// Whether any point of a contact has its bond, or bears pressure.
+bool joins(const SolidState& s, int contact)
 {
-    const auto& pressure = a.facets.pressure;
-    return std::any_of(pressure.begin(), pressure.end(), [](double p) { return p != 0.0; })
-        || loads_any(a.plates);
+    const FaceContacts& c = s.contacts;
+    const auto counts = [&](int p) { return c.area(contact, p) > 0.0; };
+    for (int p = 0; p < c.points_of(contact); ++p)
+        if (counts(p) && c.crack(contact, p).mode == intact) return true;
+    const std::vector<FacePlace> places = places_of(s, contact);
+    for (int p = 0; p < c.points_of(contact); ++p)
+        if (counts(p) && places[p].opening < 0.0) return true;
+    return false;
 }
 
-bool is_held(const Grains& grains, int grain)
+template <class State> bool presses_any(const State& s)
 {
-    bool held = grains.is_rigid(grain) && grains.spin_prescribed[grains.slot[grain]];
-    for_each_component(grains, grain, [&](int i) { held = held || grains.prescribed[i]; });
+    const std::vector<double>& pressure = s.pressures();
+    return std::any_of(pressure.begin(), pressure.end(), [](double p) { return p != 0.0; })
+        || loads_any(s.plates);
+}
+
+template <class State> bool is_held(const State& s, int grain)
+{
+    bool held = s.is_spin_held(grain);
+    for_each_component(
+        s.grains, grain, [&](int i) { held = held || s.grains.prescribed[i] != 0; });
     return held;
 }
 
-std::vector<std::uint8_t> held_grains(const Assembly& a)
+template <class State> std::vector<std::uint8_t> held_grains(const State& s)
 {
-    std::vector<std::uint8_t> held(a.grains.count, 0);
-    for (int g = 0; g < a.grains.count; ++g)
-        held[g] = !a.grains.erased[g] && is_held(a.grains, g);
-    mark_touching(a.plates, a.facets.grain, held);
+    std::vector<std::uint8_t> held(s.grains.count, 0);
+    for (int g = 0; g < s.grains.count; ++g)
+        held[g] = !s.grains.erased[g] && is_held(s, g);
+    mark_touching(s.plates, s.facet_grains(), held);
     return held;
 }
 
 }  // namespace
 
-void find_loose(Assembly& a)
+template <class State> void find_loose(State& s)
 {
-    std::fill(a.grains.loose.begin(), a.grains.loose.end(), 0);
-    if (!presses_any(a)) return;
-    Groups groups(a.grains.count);
-    for (int c = 0; c < a.contacts.count; ++c) {
-        if (joins(a, c)) groups.join(a.contacts.pairs[c][0], a.contacts.pairs[c][1]);
+    std::fill(s.grains.loose.begin(), s.grains.loose.end(), 0);
+    if (!presses_any(s)) return;
+    Groups groups(s.grains.count);
+    for (int c = 0; c < s.contacts.count; ++c) {
+        if (joins(s, c)) groups.join(s.contacts.pairs[c][0], s.contacts.pairs[c][1]);
     }
-    mark_loose(a.grains, groups, held_grains(a));
+    mark_loose(s.grains, groups, held_grains(s));
 }
+
+template void find_loose(Assembly& s);
+template void find_loose(SolidState& s);
 
 }  // namespace flexpm

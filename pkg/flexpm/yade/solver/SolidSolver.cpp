@@ -7,7 +7,7 @@
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/parts/solid_jaws.hpp>
-#include <flexpm/kernel/topology/solid_loose.hpp>
+#include <flexpm/kernel/topology/loose_grains.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
 #include <flexpm/kernel/parts/solid_sets.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
