@@ -144,7 +144,7 @@ TEST_CASE("Rollers and head of a beam bear along lines across all of its depth",
         Catch::Contains("triangles at x = 1 m, z = 0 m = 0, must be above 0"));
     CHECK_THROWS_WITH(add_line_plate(s, SolidSide::left, { a, 0.0, a, false }),
         Catch::Contains("side = 3, must be 0, the bottom, or 2, the top"));
-    CHECK_THROWS_WITH(solid_part_frame(s, few.parts()),
+    CHECK_THROWS_WITH(part_frame(s, few.parts()),
         Catch::Contains("part = 2, must be the number of a plate"));
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("Rollers and head of a beam bear the same, which is the work that is s
     const Packing p = few.packing(110, 2);
     for (const bool rigid : { false, true }) {
         SolidState s = laid(few, p, rigid);
-        const SolidFrame frame = solid_part_frame(s, few.parts());
+        const SolidFrame frame = part_frame(s, few.parts());
         const TestScales scales = solid_part_scales(s, few.parts(), 10e6, dt);
         CHECK(scales.height == Approx(few.parts().length));
         CHECK(scales.strength == 10e6);

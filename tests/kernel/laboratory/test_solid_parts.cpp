@@ -157,7 +157,7 @@ TEST_CASE(
         CHECK(std::fabs(imbalance(energies(s))) < 1e-6 * energies(s).elastic);
 
         const PartGeometry parts = shearing(p);
-        const SolidFrame frame = solid_part_frame(s, parts);
+        const SolidFrame frame = part_frame(s, parts);
         const SolidDrive drive = drive_of(parts);
         const double velocity = 1e-8 * p.solid.high.z;
         take_over(s, drive, elastic_field(s, drive), velocity, true, dt);
@@ -186,7 +186,7 @@ TEST_CASE("A plate that no load moves takes none", "[solids]")
     CHECK_THROWS_WITH(press(s, 9, 1e6), Catch::Contains("plate = 9, must be the number"));
     CHECK_THROWS_WITH(press(s, 5, -1.0), Catch::Contains("pressure on a plate = -1 Pa"));
     CHECK_THROWS_WITH(
-        solid_part_frame(s, { {}, {}, right, 1.0, 1.0 }), Catch::Contains("driven parts = 0"));
+        part_frame(s, { {}, {}, right, 1.0, 1.0 }), Catch::Contains("driven parts = 0"));
     CHECK_THROWS_WITH(plate_way(s, 9, up), Catch::Contains("plate of a gauge = 9"));
     const Vector middle = 0.5 * p.solid.high;
     const GaugePoints gauge = gauge_points(s.grains, middle - 0.5 * a * up, middle + 0.5 * a * up);

@@ -87,7 +87,7 @@ PartGeometry of_sets(const std::vector<int>& driven, Point direction, double tur
     PartGeometry parts;
     parts.driven_sets = driven;
     parts.direction = direction;
-    parts.turn = turn;
+    parts.turn = { 0.0, 0.0, turn };
     parts.area = parts.length = 1.0;
     return parts;
 }

@@ -72,7 +72,7 @@ TEST_CASE(
         start(s, drive, field, 0.0, velocity, true, dt);
         CHECK(velocity_of(s, drive) == velocity);
         go(s, 400);
-        const AxialObservation now = observe(s, solid_part_frame(s, parts));
+        const AxialObservation now = observe(s, part_frame(s, parts));
         const double way = 400.0 * velocity;
         CHECK(now.axial_strain == Approx(way).epsilon(1e-12));
         // the motion is that of the elastic solution: no wave, the same force at both ends
@@ -88,7 +88,7 @@ TEST_CASE(
         // back at the same speed: the forces go back, too
         go_on(s, drive, -velocity, dt);
         go(s, 400);
-        const AxialObservation back = observe(s, solid_part_frame(s, parts));
+        const AxialObservation back = observe(s, part_frame(s, parts));
         CHECK(std::fabs(back.axial_stress) < 2e-3 * now.axial_stress);
         CHECK(std::fabs(imbalance(energies(s))) < 1e-8 * e.elastic);
     }
@@ -106,14 +106,14 @@ TEST_CASE("Sets that twist a solid bear the same moment, and their work is that 
         for (const int set : { low, high })
             set_pivot(s, set, { 0.4 * p.solid.high.x, 0.5 * p.solid.high.y, 0.0 });
         scale_masses(s, damping, dt);
-        const PartGeometry parts { {}, {}, up, 1.0, 1.0, { high }, { low }, {}, 1.0 };
+        const PartGeometry parts { {}, {}, {}, 1.0, 1.0, { high }, { low }, {}, up };
         const SolidDrive drive = drive_of(parts);
         const double spin = 1e-8;
         const double stiffness = solid_part_scales(s, parts, 1e6, dt).modulus;
         start(s, drive, elastic_field(s, drive), 0.0, spin, true, dt);
         CHECK(velocity_of(s, drive) == spin);
         go(s, 400);
-        const AxialObservation now = observe(s, solid_part_frame(s, parts));
+        const AxialObservation now = observe(s, part_frame(s, parts));
         const double angle = 400.0 * spin;
         CHECK(now.axial_strain == Approx(angle).epsilon(1e-12));
         CHECK(s.node_sets[low].angle.z == Approx(-angle).epsilon(1e-12));
@@ -128,7 +128,7 @@ TEST_CASE("Sets that twist a solid bear the same moment, and their work is that 
         CHECK(e.boundary_work == Approx(work).epsilon(1e-9));
         go_on(s, drive, -spin, dt);
         go(s, 400);
-        const AxialObservation back = observe(s, solid_part_frame(s, parts));
+        const AxialObservation back = observe(s, part_frame(s, parts));
         CHECK(std::fabs(back.axial_stress) < 2e-3 * now.axial_stress);
         CHECK(std::fabs(imbalance(energies(s))) < 1e-8 * e.elastic);
     }

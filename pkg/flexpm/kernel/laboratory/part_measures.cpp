@@ -26,58 +26,6 @@ constexpr double strength_over_softening = 2.0;
 /// Time in which sets move by next to nothing at a unit velocity [s].
 constexpr double unit_way = 1e-9;
 
-void check(const Assembly& a, const PartGeometry& parts)
-{
-    check_positive("area of a test's load", parts.area, "m2");
-    check_positive("length of a test's displacement", parts.length, "m");
-    check_positive("length of a loading's direction", norm(parts.direction) + parts.turn, "");
-    if (parts.driven.empty() && parts.driven_sets.empty())
-        refuse("driven parts", 0.0, "", "must be at least 1");
-    for (const auto& plates : { parts.driven, parts.holding }) {
-        for (int p : plates) {
-            if (p >= 0 && p < static_cast<int>(a.plates.size())) continue;
-            refuse("part", p, "", "must be the number of a plate; add one first");
-        }
-    }
-    for (const auto& sets : { parts.driven_sets, parts.back_sets, parts.holding_sets }) {
-        for (int s : sets) {
-            if (s >= 0 && s < static_cast<int>(a.node_sets.size())) continue;
-            refuse("part", s, "", "must be the number of a node set; add one first");
-        }
-    }
-}
-
-/// Middle of the specimen and its size [m].
-struct Extent {
-    Point middle;
-    double size;
-};
-
-Extent extent_of(const Grains& grains)
-{
-    const Point first = grains.reference_at(grains.centre(0));
-    Point low = first, high = first;
-    for (int g = 0; g < grains.count; ++g) {
-        const Point p = grains.reference_at(grains.centre(g));
-        low = { std::min(low.x, p.x), std::min(low.y, p.y) };
-        high = { std::max(high.x, p.x), std::max(high.y, p.y) };
-    }
-    const double size = norm(high - low);
-    return { 0.5 * (low + high), size > 0.0 ? size : 1.0 };
-}
-
-/// Length of the specimen along a direction [m].
-double extent_along(const Grains& grains, Vector direction)
-{
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (int g = 0; g < grains.count; ++g) {
-        const double middle = dot(Vector(grains.reference_at(grains.centre(g))), direction);
-        low = std::min(low, middle - grains.radius[g]);
-        high = std::max(high, middle + grains.radius[g]);
-    }
-    return high - low;
-}
-
 /// Stiffness of the parts against motions of the specimen as one: along x, along y, and about a
 /// point over a length [N/m].
 struct RigidStiffness {
@@ -101,9 +49,9 @@ struct RigidStiffness {
 RigidStiffness rigid_stiffness(const Assembly& a)
 {
     const Grains& grains = a.grains;
-    const Extent extent = extent_of(grains);
+    const CentreExtent extent = centre_extent(grains);
     double stiffest = 1.0;
-    RigidStiffness k { extent.middle, extent.size };
+    RigidStiffness k { in_plane(extent.middle), extent.size };
     for (const Plate& plate : a.plates) {
         for (int i = 0; !plate.loaded && i < plate_points(plate); ++i) {
             const PlatePoint p = plate_point(plate, i);
@@ -139,7 +87,7 @@ const NodeSet* floating_set(const Assembly& a, int component)
 void require_resistance(const Assembly& a)
 {
     const Grains& grains = a.grains;
-    const Extent extent = extent_of(grains);
+    const CentreExtent extent = centre_extent(grains);
     RigidSupport support(extent.middle, extent.size);
     double stiffest = 1.0;
     for (const Plate& plate : a.plates) {
@@ -182,7 +130,7 @@ double springs_of(const Assembly& a, const PartGeometry& parts)
             for (std::size_t i = 0; i < set.nodes.size(); ++i) {
                 const int g = set.grains[i];
                 const Vector arm = Vector(a.grains.point_at(set.nodes[i])) - set.pivot;
-                const double lever = parts.turn ? dot(arm, arm) : 1.0;
+                const double lever = parts.turns() ? dot(arm, arm) : 1.0;
                 sum += own_law(a, g).normal_stiffness * a.thickness * a.grains.radius[g] * lever;
             }
         }
@@ -198,14 +146,6 @@ double springs_of(const Assembly& a, const PartGeometry& parts)
 
 /// Part of the largest stiffness that is none [-].
 constexpr double no_stiffness = 1e-12;
-
-double push(const Assembly& a, const std::vector<int>& plates, Vector direction)
-{
-    double sum = 0.0;
-    for (int p : plates)
-        sum += dot(a.plates[p].force, direction);
-    return sum;
-}
 
 /// Whether a plate's point bears as the plate goes this way against it: not if it lifts off.
 bool bears(const Plate& plate, int point, Vector way)
@@ -232,28 +172,31 @@ double sum_of_sets(const PartGeometry& parts, const Force& force, const Moment& 
 {
     double sum = 0.0;
     for (int s : parts.driven_sets)
-        sum += dot(force(s), parts.direction) + parts.turn * moment(s);
+        sum += dot(force(s), parts.direction) + dot(moment(s), parts.turn);
     for (int s : parts.back_sets)
-        sum -= parts.turn * moment(s);
+        sum -= dot(moment(s), parts.turn);
     return sum;
 }
 
-double push_of_sets(const Assembly& a, const PartGeometry& parts)
+double push(const BondedState& s, const std::vector<int>& plates, Vector direction)
 {
-    return sum_of_sets(
-        parts, [&](int set) { return a.node_sets[set].force; },
-        [&](int set) { return a.node_sets[set].moment.z; });
+    double sum = 0.0;
+    for (int p : plates)
+        sum += dot(s.plates[p].force, direction);
+    return sum;
 }
 
-/// Forces along the loading: of the holding plates and of the driven ones.
-EndForces ends_of(const Assembly& a, const PartGeometry& parts)
+/// Length of the specimen along a direction [m].
+double extent_along(const Grains& grains, Vector direction)
 {
-    const double top = push(a, parts.driven, parts.direction) + push_of_sets(a, parts);
-    if (parts.holding.empty() && parts.holding_sets.empty()) return { -top, top };
-    double bottom = push(a, parts.holding, parts.direction);
-    for (int s : parts.holding_sets)
-        bottom += dot(a.node_sets[s].force, parts.direction);
-    return { bottom, top };
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int g = 0; g < grains.count; ++g) {
+        const double middle =
+            dot(grains.vector(grains.reference, grains.centre(g)), direction);
+        low = std::min(low, middle - grains.radius[g]);
+        high = std::max(high, middle + grains.radius[g]);
+    }
+    return high - low;
 }
 
 }  // namespace
@@ -283,7 +226,7 @@ double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<
 {
     double sum = sum_of_sets(
         parts, [&](int set) { return a.loading.of_set(set).force; },
-        [&](int set) { return a.loading.of_set(set).moment.z; });
+        [&](int set) { return a.loading.of_set(set).moment; });
     for (int number : parts.driven) {
         const Plate& plate = a.plates[number];
         const PlateLag lag = lag_of(a, number, velocity);
@@ -300,38 +243,85 @@ double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<
     return sum;
 }
 
-double part_load(const Assembly& a, const PartGeometry& parts)
+void check_parts(const BondedState& s, const PartGeometry& parts)
 {
-    const EndForces ends = ends_of(a, parts);
+    check_positive("area of a test's load", parts.area, "m2");
+    check_positive("length of a test's displacement", parts.length, "m");
+    check_positive("length of a loading's direction", norm(parts.direction) + norm(parts.turn), "");
+    if (parts.driven.empty() && parts.driven_sets.empty())
+        refuse("driven parts", 0.0, "", "must be at least 1");
+    for (const auto& plates : { parts.driven, parts.holding }) {
+        for (int p : plates) {
+            if (p >= 0 && p < static_cast<int>(s.plates.size())) continue;
+            refuse("part", p, "", "must be the number of a plate; add one first");
+        }
+    }
+    for (const auto& sets : { parts.driven_sets, parts.back_sets, parts.holding_sets }) {
+        for (int n : sets) {
+            if (n >= 0 && n < static_cast<int>(s.node_sets.size())) continue;
+            refuse("part", n, "", "must be the number of a node set; add one first");
+        }
+    }
+}
+
+EndForces part_forces(const BondedState& s, const PartGeometry& parts)
+{
+    const double top = push(s, parts.driven, parts.direction)
+        + sum_of_sets(
+            parts, [&](int set) { return s.node_sets[set].force; },
+            [&](int set) { return s.node_sets[set].moment; });
+    if (parts.holding.empty() && parts.holding_sets.empty()) return { -top, top };
+    double bottom = push(s, parts.holding, parts.direction);
+    for (int n : parts.holding_sets)
+        bottom += dot(s.node_sets[n].force, parts.direction);
+    return { bottom, top };
+}
+
+double part_load(const BondedState& s, const PartGeometry& parts)
+{
+    if (parts.driven.empty() && parts.driven_sets.empty()) return 0.0;
+    const EndForces ends = part_forces(s, parts);
     return 0.5 * (ends.top - ends.bottom);
 }
 
-double part_displacement(const Assembly& a, const PartGeometry& parts)
+double part_displacement(const BondedState& s, const PartGeometry& parts)
 {
     if (!parts.driven.empty())
-        return dot(a.plates[parts.driven.front()].displacement, parts.direction);
-    const NodeSet& set = a.node_sets[parts.driven_sets.front()];
-    return dot(set.displacement, parts.direction) + parts.turn * set.angle.z;
+        return dot(s.plates[parts.driven.front()].displacement, parts.direction);
+    const NodeSet& set = s.node_sets[parts.driven_sets.front()];
+    return dot(set.displacement, parts.direction) + dot(set.angle, parts.turn);
 }
 
-TestFrame part_frame(const Assembly& a, const PartGeometry& parts)
+CentreExtent centre_extent(const Grains& grains)
 {
-    check(a, parts);
-    TestFrame frame;
-    frame.area = parts.area;
-    frame.height = parts.length;
-    frame.sense = Sense::tension;
-    frame.ends = [parts](const Assembly& now) { return ends_of(now, parts); };
-    frame.strains = [parts](const Assembly& now) {
-        return TestStrains { part_displacement(now, parts) / parts.length,
-            std::numeric_limits<double>::quiet_NaN() };
-    };
-    return frame;
+    const Vector first = grains.vector(grains.reference, grains.centre(0));
+    Vector low = first, high = first;
+    for (int g = 0; g < grains.count; ++g) {
+        const Vector p = grains.vector(grains.reference, grains.centre(g));
+        low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
+        high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
+    }
+    const double size = grains.length(high - low);
+    return { 0.5 * (low + high), size > 0.0 ? size : 1.0 };
+}
+
+TestScales scales_of_parts(const Grains& grains, const PartGeometry& parts,
+    const PartSolution& solution, double strength, const ScaleInputs& compressed, double width)
+{
+    const double modulus = solution.stiffness * parts.length / parts.area;
+    double failure = 0.0;
+    if (strength == 0.0) {
+        strength = strength_over_softening * solution.softening / parts.length * modulus;
+        const double extent = parts.turns() ? 1.0 : extent_along(grains, parts.direction);
+        failure = failure_displacement(compressed, extent) / parts.length;
+    }
+    return { std::sqrt(3.0 * solution.mass / solution.stiffness) / compressed.dt, modulus, strength,
+        parts.length, width, compressed.damage_share, failure, strength };
 }
 
 TestScales part_scales(const Assembly& a, const PartGeometry& parts, double strength, double dt)
 {
-    check(a, parts);
+    check_parts(a, parts);
     check_not_negative("strength", strength, "Pa");
     Assembly moved = a;
     std::fill(moved.grains.velocity.begin(), moved.grains.velocity.end(), 0.0);
@@ -350,9 +340,9 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
     }
     moved.loading.sets.clear();
     for (int s : parts.driven_sets)
-        set_motion_of(moved, s, parts.direction, parts.turn);
+        set_motion_of(moved, s, parts.direction, parts.turn.z);
     for (int s : parts.back_sets)
-        set_motion_of(moved, s, {}, -parts.turn);
+        set_motion_of(moved, s, {}, -parts.turn.z);
     drive_node_sets(moved, unit_way);
     require_resistance(moved);
     // a unit velocity turns rigid grains far: their contacts are looked at in the solution itself
@@ -368,17 +358,9 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
         refuse("stiffness that the driven parts feel", 0.0, "N/m",
             "must be > 0; hold against them what is not cut off from them");
     }
-    const double modulus = stiffness * parts.length / parts.area;
-    double failure = 0.0;
-    if (strength == 0.0) {
-        const double softening = elastic_time(moved, solution);
-        strength = strength_over_softening * softening / parts.length * modulus;
-        const double extent = parts.turn ? 1.0 : extent_along(a.grains, parts.direction);
-        const ScaleInputs inputs = scale_inputs(a, Sense::compression, dt);
-        failure = failure_displacement(inputs, extent) / parts.length;
-    }
-    return { std::sqrt(3.0 * mass / stiffness) / dt, modulus, strength, parts.length,
-        a.length_of(parts.area), damage_share(a), failure, strength };
+    const double softening = strength == 0.0 ? elastic_time(moved, solution) : 0.0;
+    return scales_of_parts(a.grains, parts, { mass, stiffness, softening }, strength,
+        scale_inputs(a, Sense::compression, dt), a.length_of(parts.area));
 }
 
 }  // namespace flexpm

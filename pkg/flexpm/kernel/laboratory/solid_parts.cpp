@@ -34,8 +34,6 @@ constexpr std::size_t most_looks = 10;
 /// Strain at which all is linear, but no round-off, and such a part of the way to the first
 /// softening, where the length of a test is none of the specimen's [-].
 constexpr double small_strain = 1e-7, small_part = 0.1;
-/// Strength of a test over the stress at which its first point softens, as of the plane [-].
-constexpr double strength_over_softening = 2.0;
 
 /// What lies in a box.
 std::vector<HalfSpace> box_of(const SolidPatch& patch)
@@ -46,47 +44,6 @@ std::vector<HalfSpace> box_of(const SolidPatch& patch)
         box.push_back({ along, dot(along, patch.high) });
     }
     return box;
-}
-
-void check(const SolidState& s, const PartGeometry& parts)
-{
-    check_positive("area of a test's load", parts.area, "m^2");
-    check_positive("length of a test's displacement", parts.length, "m");
-    if (parts.driven.empty() && parts.driven_sets.empty())
-        refuse("driven parts", 0.0, "", "must be at least 1");
-    for (const auto& sets : { parts.driven_sets, parts.back_sets, parts.holding_sets }) {
-        for (int n : sets) {
-            if (n >= 0 && n < static_cast<int>(s.node_sets.size())) continue;
-            refuse("part", n, "", "must be the number of a node set; add one first");
-        }
-    }
-    for (const auto& plates : { parts.driven, parts.holding }) {
-        for (int p : plates) {
-            if (p >= 0 && p < static_cast<int>(s.plates.size())) continue;
-            refuse("part", p, "", "must be the number of a plate; lay one first");
-        }
-    }
-}
-
-double push(const SolidState& s, const std::vector<int>& plates, const std::vector<int>& sets,
-    Vector direction)
-{
-    double sum = 0.0;
-    for (int p : plates)
-        sum += dot(s.plates[p].force, direction);
-    for (int n : sets)
-        sum += dot(s.node_sets[n].force, direction);
-    return sum;
-}
-
-/// Sum of the moments of what turns.
-double moment_of(const SolidState& s, const PartGeometry& parts)
-{
-    double sum = 0.0;
-    drive_of(parts).for_each_set([&](int set, double sense) {
-        sum += sense * dot(s.node_sets[set].moment, parts.direction);
-    });
-    return sum;
 }
 
 /// Growth of the forces of plates along a direction as grains move [N/s].
@@ -117,28 +74,10 @@ double mean_radius(const SolidState& s)
     return grain_mean(s.grains, [&](int g) { return s.grains.radius[g]; });
 }
 
-/// Way of what is driven first, or its angle.
-double way_of(const SolidState& s, const PartGeometry& parts)
-{
-    if (!parts.driven.empty())
-        return dot(s.plates[parts.driven.front()].displacement, parts.direction);
-    const NodeSet& first = s.node_sets[parts.driven_sets.front()];
-    return dot(parts.turn ? first.angle : first.displacement, parts.direction);
-}
-
-/// Forces along the loading: of the holding plates and of the driven ones; of what turns moments.
-EndForces ends_of(const SolidState& s, const PartGeometry& parts)
-{
-    const double top = parts.turn ? moment_of(s, parts)
-                                  : push(s, parts.driven, parts.driven_sets, parts.direction);
-    if (parts.holding.empty() && parts.holding_sets.empty()) return { -top, top };
-    return { push(s, parts.holding, parts.holding_sets, parts.direction), top };
-}
-
 /// Where the elastic solution takes a specimen, for a way so small that all is linear.
 SolidPartState moved_state(SolidState s, const PartGeometry& parts, double dt)
 {
-    check(s, parts);
+    check_parts(s, parts);
     const SolidField field = elastic_field(s, drive_of(parts));
     SolidPartState found { std::move(s) };
     found.softening = elastic_strain(found.state, field, 1.0);  // a way: the field is that of 1 m
@@ -149,30 +88,12 @@ SolidPartState moved_state(SolidState s, const PartGeometry& parts, double dt)
     return found;
 }
 
-/// Length of the specimen along a direction [m].
-double extent_along(const Grains& grains, Vector direction)
-{
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (int g = 0; g < grains.count; ++g) {
-        const double middle = dot(space_vector(grains.reference, grains.centre(g)), direction);
-        low = std::min(low, middle - grains.radius[g]);
-        high = std::max(high, middle + grains.radius[g]);
-    }
-    return high - low;
-}
-
 /// Refuse parts that leave the specimen free to follow those that are driven.
 /// @throws std::invalid_argument  naming how it moves
 void require_resistance(const SolidState& s, const PartGeometry& parts)
 {
-    Vector low = space_vector(s.grains.reference, s.grains.centre(0)), high = low;
-    for (int g = 0; g < s.grains.count; ++g) {
-        const Vector p = space_vector(s.grains.reference, s.grains.centre(g));
-        low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
-        high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
-    }
-    const double size = norm(high - low);
-    RigidSupport support(0.5 * (low + high), size > 0.0 ? size : 1.0);
+    const CentreExtent extent = centre_extent(s.grains);
+    RigidSupport support(extent.middle, extent.size);
     double stiffest = 1.0;
     const std::vector<int>& driven = parts.driven;
     for (int number = 0; number < static_cast<int>(s.plates.size()); ++number) {
@@ -198,7 +119,7 @@ void require_resistance(const SolidState& s, const PartGeometry& parts)
     }
     const SolidDrive drive = drive_of(parts);
     std::vector<Vector> ways(s.node_sets.size());
-    drive.for_each_set([&](int set, double sense) { ways[set] = sense * parts.direction; });
+    drive.for_each_set([&](int set, double sense) { ways[set] = sense * drive.direction; });
     const Vector axes[] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
     for (std::size_t number = 0; number < s.node_sets.size(); ++number) {
         const NodeSet& set = s.node_sets[number];
@@ -368,25 +289,10 @@ int find_patch_plate(const SolidState& s, const SolidPatch& patch)
     return find_alike(s, plate_before(s, patch));
 }
 
-SolidFrame solid_part_frame(const SolidState& s, const PartGeometry& parts)
-{
-    check(s, parts);
-    SolidFrame frame;
-    frame.area = parts.area;
-    frame.height = parts.length;
-    frame.sense = Sense::tension;
-    frame.ends = [parts](const SolidState& now) { return ends_of(now, parts); };
-    frame.strains = [parts](const SolidState& now) {
-        return TestStrains { way_of(now, parts) / parts.length,
-            std::numeric_limits<double>::quiet_NaN() };
-    };
-    return frame;
-}
-
 SolidDrive drive_of(const PartGeometry& parts)
 {
-    return { parts.driven, parts.direction, 1.0, parts.driven_sets, parts.back_sets,
-        parts.turn != 0.0 };
+    return { parts.driven, parts.turns() ? parts.turn : parts.direction, 1.0, parts.driven_sets,
+        parts.back_sets, parts.turns() };
 }
 
 SolidPartState elastic_part_state(const SolidState& s, const PartGeometry& parts, double dt)
@@ -426,17 +332,10 @@ SolidPartState pressed_part_state(
     return found;
 }
 
-double part_load(const SolidState& s, const PartGeometry& parts)
-{
-    if (parts.driven.empty() && parts.driven_sets.empty()) return 0.0;
-    const EndForces ends = ends_of(s, parts);
-    return 0.5 * (ends.top - ends.bottom);
-}
-
 double part_load_rate(const SolidState& s, const PartGeometry& parts, const Array<double>& velocity)
 {
     if (!parts.driven.empty()) return push_rate(s, parts.driven, parts.direction, velocity);
-    return -push_rate(s, parts.holding, parts.direction, velocity);
+    return -push_rate(s, parts.holding, drive_of(parts).direction, velocity);
 }
 
 TestScales solid_part_scales(
@@ -446,7 +345,7 @@ TestScales solid_part_scales(
     SolidState specimen = s;
     for (Plate& plate : specimen.plates)
         plate.machine_stiffness = 0.0;
-    check(specimen, parts);
+    check_parts(specimen, parts);
     require_resistance(specimen, parts);
     const SolidPartState moved = moved_state(std::move(specimen), parts, dt);
     const double stiffness = moved.load / moved.way, softening = moved.softening;
@@ -455,16 +354,9 @@ TestScales solid_part_scales(
             "must be > 0; hold against them what is not cut off from them");
     }
     const double mass = 2.0 * kinetic_of_velocities(moved.state);
-    const double width = std::sqrt(parts.area), modulus = stiffness * parts.length / parts.area;
-    const ScaleInputs inputs = scale_inputs(s, Sense::compression, width, dt);
-    double failure = 0.0;
-    if (strength == 0.0) {
-        strength = strength_over_softening * softening / parts.length * modulus;
-        const double extent = parts.turn ? 1.0 : extent_along(s.grains, parts.direction);
-        failure = failure_displacement(inputs, extent) / parts.length;
-    }
-    return { std::sqrt(3.0 * mass / stiffness) / dt, modulus, strength, parts.length, width,
-        inputs.damage_share, failure, strength };
+    const double width = std::sqrt(parts.area);
+    return scales_of_parts(s.grains, parts, { mass, stiffness, softening }, strength,
+        scale_inputs(s, Sense::compression, width, dt), width);
 }
 
 }  // namespace flexpm

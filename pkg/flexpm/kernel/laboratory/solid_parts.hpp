@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Plates against parts of the outside of a specimen in space, which hold and load it, and
-/// what their test records: part_plates.hpp and part_measures.hpp of the plane. SI units.
+/// the elastic solution of their test. SI units.
 #pragma once
 
 #include <flexpm/kernel/laboratory/part_measures.hpp>
@@ -30,13 +30,7 @@ int add_patch_plate(SolidState& s, const SolidPatch& patch);
 /// Number of the plate that add_patch_plate() has laid on a patch; -1 if there is none.
 int find_patch_plate(const SolidState& s, const SolidPatch& patch);
 
-/// Frame of a test by plates, whose load is positive as the driven ones push; as part_frame() of
-/// the plane. There is no lateral strain.
-/// @throws std::invalid_argument  for a plate that there is not, or a size that is not above 0
-SolidFrame solid_part_frame(const SolidState& s, const PartGeometry& parts);
-
-/// What its elastic solution drives: a way of 1 m, or an angle of 1 rad. The direction of what
-/// turns is its axis.
+/// Drive of a test's elastic solution: a way of 1 m, or an angle of 1 rad.
 SolidDrive drive_of(const PartGeometry& parts);
 
 /// Where its elastic solution takes a specimen, whose plates hold what touches them.
@@ -49,7 +43,7 @@ struct SolidPartState {
                              ///< specimen softens
 };
 
-/// @throws std::invalid_argument  as solid_part_frame()
+/// @throws std::invalid_argument  as check_parts()
 /// @throws std::runtime_error     if the forces do not come to balance
 SolidPartState elastic_part_state(const SolidState& s, const PartGeometry& parts, double dt);
 
@@ -65,9 +59,6 @@ struct PlatePressure {
 /// @throws std::runtime_error     if the forces do not come to balance
 SolidPartState pressed_part_state(
     const SolidState& s, const PartGeometry& parts, const std::vector<PlatePressure>& pressures);
-
-/// Load of the driven parts along the loading, as a record has it; 0 without [N, or N m].
-double part_load(const SolidState& s, const PartGeometry& parts);
 
 /// Growth of the load of plates as the grains move at a velocity; of those that hold where node
 /// sets are driven [N/s].

@@ -105,7 +105,7 @@ flexpm::TestScales DiscFrame::scales(const flexpm::Assembly& assembly, Real dt) 
 
 flexpm::PartGeometry PartFrame::parts() const
 {
-	return { driven, holding, { direction[0], direction[1] }, area, length, drivenSets, backSets, holdingSets, direction[2] };
+	return { driven, holding, { direction[0], direction[1] }, area, length, drivenSets, backSets, holdingSets, { 0., 0., direction[2] } };
 }
 
 py::dict PartFrame::elasticState(vector<int> pressed, vector<Real> pressures, Real way, py::object load) const
@@ -181,7 +181,7 @@ flexpm::TestScales SolidDiscFrame::scalesOf(GrainSolver& solver, Real dt) const 
 flexpm::AxialObservation SolidPartFrame::observed(GrainSolver& solver) const
 {
 	const auto& state = solidOf(solver);
-	return flexpm::observe(state, flexpm::solid_part_frame(state, parts()));
+	return flexpm::observe(state, flexpm::part_frame(state, parts()));
 }
 
 flexpm::TestScales SolidPartFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_part_scales(solidOf(solver), parts(), strength, dt); }

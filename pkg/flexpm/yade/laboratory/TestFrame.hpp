@@ -185,7 +185,8 @@ public:
 private:
 	flexpm::PartGeometry parts() const
 	{
-		return { driven, holding, { direction[0], direction[1], direction[2] }, area, length, drivenSets, backSets, holdingSets, turns ? 1. : 0. };
+		const flexpm::Vector along { direction[0], direction[1], direction[2] }, none;
+		return { driven, holding, turns ? none : along, area, length, drivenSets, backSets, holdingSets, turns ? along : none };
 	}
 };
 REGISTER_SAVED(SolidPartFrame);
