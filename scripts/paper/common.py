@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Common to the scripts of the paper's figures: studies with committed results, derived measures.
+"""Common to the scripts of the paper's figures: studies with their tables, derived measures.
 
-A script does the runs of the study file of its name and writes ``paper-out/NAME/*.png``. Runs
-whose results stand in ``results/NAME.csv`` are not repeated, but for those whose curves a picture
-needs; a script started with ``--keep`` adds its new results to that table.
+A script does the runs of the study file of its name and writes ``paper-out/NAME/*.png``. It keeps
+results in ``paper-out/NAME.csv`` and repeats no run of this table, but for those whose curves a
+picture needs.
 """
 
 from __future__ import annotations
@@ -25,7 +25,6 @@ from flexpm.results.strength import Envelope
 from flexpm.studies import figures, jobs, study
 
 HERE = Path(__file__).parent
-RESULTS = HERE / "results"
 #: Runs after which their rows are kept, so that a night that ends early has lost little.
 KEPT = 20
 
@@ -34,8 +33,9 @@ def options(about: str) -> argparse.Namespace:
     """Read the options that all scripts have."""
     parser = argparse.ArgumentParser(description=about)
     parser.add_argument("--workers", type=int, help="runs at a time; default: one per core")
-    parser.add_argument("--out", type=Path, default=Path("paper-out"), help="folder of the runs")
-    parser.add_argument("--keep", action="store_true", help="add new results to results/")
+    parser.add_argument(
+        "--out", type=Path, default=Path("paper-out"), help="folder of the tables and the runs"
+    )
     parser.add_argument("--dry", action="store_true", help="run nothing: use what is there")
     return parser.parse_args()
 
@@ -55,8 +55,8 @@ def results(
         plan: The runs; None for those of the study file.
     """
     plan = plan or study.read(HERE / f"{name}.toml")
-    table, folder = RESULTS / f"{name}.csv", chosen.out / name
-    known = committed(name)
+    table, folder = chosen.out / f"{name}.csv", chosen.out / name
+    known = rows_of(table)
     done = set(known["key"])
     missing = [job for job in plan.jobs if job.key not in done]
     print(f"{name}: {len(plan.jobs)} runs, {len(missing)} of them not in {table.name}")
@@ -80,15 +80,12 @@ def results(
                 new = study.run(part, folder, workers=chosen.workers, progress=progress)
                 done_now = new[new["exit_code"].isin([0, 3])]
                 known = pandas.concat([known, done_now], ignore_index=True).drop_duplicates("key")
-                if chosen.keep:
-                    RESULTS.mkdir(exist_ok=True)
-                    _in_order(known, plan.jobs).to_csv(table, index=False)
+                _in_order(known, plan.jobs).to_csv(table, index=False)
     return _in_order(known, plan.jobs), folder
 
 
-def committed(name: str) -> pandas.DataFrame:
-    """Rows of ``results/NAME.csv``; none if there is no such table."""
-    table = RESULTS / f"{name}.csv"
+def rows_of(table: Path) -> pandas.DataFrame:
+    """Rows of a table of runs; none if there is no such table."""
     if not table.exists():
         return pandas.DataFrame({"key": []})
     # pandas' own reader of numbers would change last digits at each writing

@@ -2,13 +2,13 @@
 """What half the paper's size changes: the corner points of Fig. 12, full size over half size.
 
 ``full_size_ratios.csv`` has the ratios of means over three packings of each size, with standard
-errors; c and φ are of 0 and 4 MPa here.
+errors; c and φ are of 0 and 4 MPa here. Runs of half the size are those of ``fig12.py``.
 """
 
 from __future__ import annotations
 
 import pandas
-from common import RESULTS, committed, macroscopic, options, results
+from common import macroscopic, options, results, rows_of
 
 KEYS = ["model", "set.cohesion", "set.tensile_fracture_energy"]
 #: Measures, by the heading of the table.
@@ -21,7 +21,7 @@ MEASURES = {
 
 chosen = options(__doc__)
 full, folder = results("full_size", chosen)
-half = committed("fig12")
+half = rows_of(chosen.out / "fig12.csv")
 half = half[half["confinement"].fillna(0.0).isin([0.0, 4e6])]
 sizes = [
     macroscopic(rows[rows["test"] != "brazilian"], KEYS).groupby(KEYS)[[*MEASURES.values()]]
@@ -43,6 +43,5 @@ for corner in mean.index:
         line[heading] = f"{found:.2f} ± {found * share.loc[corner, name]:.2f}"
     lines.append(line)
 table = pandas.DataFrame(lines)
-for place in (folder, RESULTS) if chosen.keep else (folder,):
-    table.to_csv(place / "full_size_ratios.csv", index=False)
+table.to_csv(folder / "full_size_ratios.csv", index=False)
 print(table.to_string(index=False))

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Table 7 under other readings of the paper, full size: five measures each, beside Table 3.
 
-``readings_changes.csv`` has the change of each measure on the same packing.
+``readings_table.csv`` has means and standard errors, ``readings_changes.csv`` the change of each
+measure on the same packing.
 
 A reading changes one thing that the paper leaves open, or two where its name says so, on the same
 packings. Those at ten times the rate are no readings but tell what loading too fast would give.
@@ -12,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import pandas
-from common import HERE, RESULTS, committed, macroscopic, options, results
+from common import HERE, macroscopic, options, results
 
 from flexpm.materials.references import reference_of
 from flexpm.studies import jobs, study
@@ -35,8 +36,6 @@ RANGES = {
     "in use, c and φ from 0, 2, 4 MPa": (0.0, 2e6, 4e6),
     "in use, c and φ from 4, 8, 12 MPa": (4e6, 8e6, 12e6),
 }
-#: Another law, whose runs ``present_opening.py`` makes.
-PRESENT = "damage by the present opening"
 #: Inputs of each reading, by the words of the table.
 READINGS = {
     "G_f is half the area": HALF_AREA,
@@ -80,8 +79,7 @@ rows["reading"] = rows["key"].map({job.key: reading for reading, job in made})
 known, _ = results("fig14", chosen)
 measured = [in_use(known, [test.get("confinement", 0.0) for test in TESTS], IN_USE)]
 measured += [in_use(known, pressures, name) for name, pressures in RANGES.items()]
-present = committed("present_opening")
-measured.append(macroscopic(pandas.concat([rows, present.assign(reading=PRESENT)]), ["reading"]))
+measured.append(macroscopic(rows, ["reading"]))
 found = pandas.concat(measured, ignore_index=True)
 rock = reference_of("augig")
 goals = {
@@ -118,6 +116,5 @@ for name, heading, factor, digits in MEASURES:
     last[heading] = f"{factor * goals[name]:.{digits}f}" if name in goals else ""
 tables = {"table": pandas.DataFrame([*lines, last]), "changes": pandas.DataFrame(changes)}
 for name, table in tables.items():
-    for place in (folder, RESULTS) if chosen.keep else (folder,):
-        table.to_csv(place / f"readings_{name}.csv", index=False)
+    table.to_csv(folder / f"readings_{name}.csv", index=False)
     print(table.to_string(index=False))

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the paper says of Figs. 7 to 14, judged by the committed results: ``statements.csv``.
+"""Statements of the paper on Figs. 7 to 14, judged by the tables of the figures' scripts.
 
-How many statements of each section are reproduced is in ``verdicts.csv``.
+Writes ``paper-out/statements.csv``, and to ``verdicts.csv`` how many statements of each section are
+reproduced. A statement is not judged before the script of its figure has made its table.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import Any, NamedTuple
 
 import judge
 import pandas
-from common import RESULTS, macroscopic
+from common import macroscopic, options
 
 FLEXIBLE, RIGID = {"model": "flexible"}, {"model": "rigid"}
 INNER, INNER_UN = {"model": "inner"}, {"model": "inner-un"}
@@ -410,8 +411,8 @@ STATEMENTS = [
 
 
 def table_of(study: str) -> pandas.DataFrame | None:
-    """Committed results of a study, for the sweeps as measures of the rock; None if not run."""
-    file = RESULTS / f"{study}.csv"
+    """Results of a study, for the sweeps as measures of the rock; None if not run."""
+    file = chosen.out / f"{study}.csv"
     if not file.exists():
         return None
     rows = pandas.read_csv(file)
@@ -423,6 +424,8 @@ def packings(table: pandas.DataFrame | None) -> str:
     return "1" if table is None or "seed" not in table else str(table["seed"].nunique())
 
 
+chosen = options(__doc__)
+chosen.out.mkdir(parents=True, exist_ok=True)
 tables = {study: table_of(study) for study in {statement.study for statement in STATEMENTS}}
 found = pandas.DataFrame(
     {
@@ -435,10 +438,10 @@ found = pandas.DataFrame(
     }
     for statement in STATEMENTS
 )
-found.to_csv(RESULTS / "statements.csv", index=False)
+found.to_csv(chosen.out / "statements.csv", index=False)
 print(found.to_string(index=False))
 verdicts = found["Here"].map(judge.overall)
 names = [name for name in SHOWN if name in set(verdicts)]
 counts = pandas.crosstab(found["Section"], verdicts, margins=True, margins_name="all")[names]
-counts.to_csv(RESULTS / "verdicts.csv")
+counts.to_csv(chosen.out / "verdicts.csv")
 print(counts.to_string())

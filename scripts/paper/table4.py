@@ -4,7 +4,7 @@
 import json
 
 import pandas
-from common import RESULTS, options
+from common import options
 
 from flexpm.bench import timing as bench
 
@@ -24,6 +24,5 @@ hours = pandas.DataFrame(
         for test, models in tests.items()
     }
 )
-for place in (folder, RESULTS) if chosen.keep else (folder,):
-    hours.to_csv(place / "table4.csv", index_label="model")
+hours.to_csv(chosen.out / "table4.csv", index_label="model")
 print(hours.round(3))

@@ -6,8 +6,8 @@ and discs of 50 x 25 mm in space, under the pressures of deviation D44. Adds one
 passes over rows that are there. SI units. The second command prints means and standard errors:
 
     export PYTHONPATH=build/python
-    /usr/bin/python3 scripts/studies/fresh_packings.py scripts/studies/fresh_packings.csv
-    /usr/bin/python3 scripts/studies/fresh_packings.py scripts/studies/fresh_packings.csv --table
+    /usr/bin/python3 scripts/studies/fresh_packings.py fresh_packings.csv
+    /usr/bin/python3 scripts/studies/fresh_packings.py fresh_packings.csv --table
 """
 
 from __future__ import annotations

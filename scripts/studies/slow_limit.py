@@ -4,14 +4,14 @@
 Runs each test on several packings: at two slow constant rates, from which a straight line over the
 rate gives the limit, and with each way of loading at some factors on its rate. Adds one CSV row a
 run and passes over rows that are there. SI units. Start it from a checkout that scripts/setup has
-built; the second command prints the table of the documentation, ``slow_limit_table.csv``:
+built; the second command prints the table of the documentation:
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/studies/slow_limit.py limit.csv uniaxial
     PYTHONPATH=build/python /usr/bin/python3 scripts/studies/slow_limit.py limit.csv --table
     PYTHONPATH=build/python /usr/bin/python3 scripts/studies/slow_limit.py limit.csv --ratios
 
-The last one prints that of the tests between parts with their unbalanced-force ratios,
-``slow_limit_ratios.csv``: beams, half discs, and joints without cohesion in direct shear.
+The last one prints the table of the tests between parts with their unbalanced-force ratios:
+beams, half discs, and joints without cohesion in direct shear.
 """
 
 from __future__ import annotations

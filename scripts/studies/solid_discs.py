@@ -16,8 +16,8 @@ Adds one CSV row a disc and passes over rows that are there. SI units. Start it 
 scripts/setup has built; the second command prints means and standard errors:
 
     export PYTHONPATH=build/python
-    /usr/bin/python3 scripts/studies/solid_discs.py scripts/studies/solid_discs.csv
-    /usr/bin/python3 scripts/studies/solid_discs.py scripts/studies/solid_discs.csv --table
+    /usr/bin/python3 scripts/studies/solid_discs.py solid_discs.csv
+    /usr/bin/python3 scripts/studies/solid_discs.py solid_discs.csv --table
 """
 
 from __future__ import annotations

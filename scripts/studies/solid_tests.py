@@ -7,8 +7,8 @@ Adds one CSV row a run and passes over rows that are there; what is refused has 
 SI units. The second command prints means:
 
     export PYTHONPATH=build/python
-    /usr/bin/python3 scripts/studies/solid_tests.py scripts/studies/solid_tests.csv
-    /usr/bin/python3 scripts/studies/solid_tests.py scripts/studies/solid_tests.csv --table
+    /usr/bin/python3 scripts/studies/solid_tests.py solid_tests.csv
+    /usr/bin/python3 scripts/studies/solid_tests.py solid_tests.csv --table
 """
 
 from __future__ import annotations

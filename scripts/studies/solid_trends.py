@@ -13,8 +13,8 @@ Adds one CSV row a run and passes over rows that are there. SI units. Start it f
 scripts/setup has built; the second command prints means and standard errors, the third draws them:
 
     export PYTHONPATH=build/python
-    /usr/bin/python3 scripts/studies/solid_trends.py scripts/studies/solid_trends.csv ends
-    /usr/bin/python3 scripts/studies/solid_trends.py scripts/studies/solid_trends.csv --table
+    /usr/bin/python3 scripts/studies/solid_trends.py solid_trends.csv ends
+    /usr/bin/python3 scripts/studies/solid_trends.py solid_trends.csv --table
     /usr/bin/python3 scripts/studies/solid_trends.py solid_trends.csv --picture a.png
 """
 

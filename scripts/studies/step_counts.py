@@ -2,15 +2,15 @@
 """Steps that a run announces against the steps that it takes, for all tests, shapes and models.
 
 Small packings of seed 1, and of seed 2 for the tests that scatter most, are fitted; others of other
-sizes, options and seeds judge the estimate. Larger packings are in slow_limit.csv, trends.csv,
-models.csv and fresh_packings.csv, on which the estimate was fitted, too. Adds one CSV row a run and
+sizes, options and seeds judge the estimate. The estimate was also fitted to larger packings: the
+tables of slow_limit.py, trends.py, models.toml and fresh_packings.py. Adds one CSV row a run and
 passes over rows that exist. A run takes up to a minute on an idle core. Steps are those of the run,
 `announced` at its start and `tenth` after a tenth of it. The second command prints how many runs
 keep within which factor:
 
     export PYTHONPATH=build/python
-    /usr/bin/python3 scripts/studies/step_counts.py scripts/studies/step_counts.csv
-    /usr/bin/python3 scripts/studies/step_counts.py scripts/studies/step_counts.csv --table
+    /usr/bin/python3 scripts/studies/step_counts.py step_counts.csv
+    /usr/bin/python3 scripts/studies/step_counts.py step_counts.csv --table
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ Table 2, and writes one CSV row a run. Smaller discs are stronger: rigid and bil
 (within an hour on one core). Rows whose key is not that of their run any more are outdated: one
 line tells their number, and they are run again.
 
-    PYTHONPATH=build/python /usr/bin/python3 scripts/studies/trends.py scripts/studies/trends.csv
+    PYTHONPATH=build/python /usr/bin/python3 scripts/studies/trends.py trends.csv
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ Start it from a checkout that scripts/setup has built, best by ``scripts/night i
 
     FLEXPM_SOURCES=COMMIT PYTHONPATH=build/python /usr/bin/python3 tests/helpers/drawn_images.py
 
-writes 100 rows of images of 512 x 512 pixels (noise: 128) to scripts/checks/images.csv. Rows of
+writes 100 rows of images of 512 x 512 pixels (noise: 128) to night-out/images.csv. Rows of
 that commit are not measured again. Areas as parts of themselves, lengths in pixels.
 """
 
@@ -26,7 +26,7 @@ from scipy.spatial import cKDTree
 from flexpm.specimens.labels.given import divide
 from flexpm.specimens.specimen import Specimen
 
-TABLE = Path(__file__).resolve().parents[2] / "scripts" / "checks" / "images.csv"
+TABLE = Path(__file__).resolve().parents[2] / "night-out" / "images.csv"
 PIXEL, THICKNESS = 5e-5, 0.01
 KINDS = ("grains", "islands", "patches", "checkerboard", "noise", "single pixels")
 IMAGES, SIZE = 100, 512
@@ -186,6 +186,7 @@ def main(commit):
         first = (str(seed), KINDS[seed % 6], str(labels.shape[1]), str(smallest_of(seed)), commit)
         rows[seed] = dict(zip(head, (*first, *texts), strict=True))
         print(*rows[seed].values(), flush=True)
+        TABLE.parent.mkdir(exist_ok=True)
         temporary = TABLE.with_suffix(".tmp")
         with temporary.open("w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, head, lineterminator="\n")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flexible against rigid grains at equal strengths, paper Sec. 4.3: means of three packings.
 
-The runs are those of scripts/studies/trends.py, each done once; its table holds what they gave.
+The runs are those of scripts/studies/trends.py, each done once.
 """
 
 from __future__ import annotations

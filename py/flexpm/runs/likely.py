@@ -5,7 +5,7 @@ A loading that waits goes at its fastest rate while the specimen is elastic, whi
 wave transits, and slows by the power 0.8 of the dissipated share of the work. Most steps are those
 in which contacts soften. Their number grows with the displacement over which a contact softens,
 compared with the displacement at the strength: 2 G E / (f^2 H) with G the fracture energy, f the
-strength, E the modulus and H the height. The table is `scripts/studies/step_counts.csv`.
+strength, E the modulus and H the height. `scripts/studies/step_counts.py` makes the table of runs.
 """
 
 from __future__ import annotations
