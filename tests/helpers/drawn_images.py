@@ -30,7 +30,7 @@ TABLE = Path(__file__).resolve().parents[2] / "night-out" / "images.csv"
 PIXEL, THICKNESS = 5e-5, 0.01
 KINDS = ("grains", "islands", "patches", "checkerboard", "noise", "single pixels")
 IMAGES, SIZE = 100, 512
-#: Grains below have no limit of their own in the issue of a map [pixels].
+#: Size from which the limit of `grain_area` holds [pixels].
 LARGE = 100
 
 

@@ -46,8 +46,8 @@ LARGEST_GROWTH = 0.015
 #: by more: 0.010 and 0.016, and 0.0064 and 0.0066.
 LARGEST_GROWTH_OF_JOINTS = {"flexible": 0.012, "rigid": 0.0065}
 #: Rate times the rock's strength over that of a joint above which the joint may bear too much: its
-#: cracks come one after the other, and the load tells nothing. Errors above 2 % that nothing else
-#: names begin at 15; up to 5 they are 1.1 % at most (``doc/record/rates``).
+#: cracks come one after the other, and the load tells nothing. In the runs from which it was chosen
+#: errors above 2 % that nothing else names began at 15; up to 5 they were 1.1 % at most.
 LARGEST_RATE_OF_JOINTS = 5.0
 #: Rows of the record from 5 % of the largest stress up to it that are not few. A wave
 #: crosses the specimen in eight rows; at the rates in use the elastic loading takes three transits.

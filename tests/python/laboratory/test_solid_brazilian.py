@@ -76,8 +76,8 @@ def test_the_middle_of_a_disc_has_its_elastic_stresses(disc, model):
 def test_a_prism_in_the_middle_of_a_fine_disc_has_the_planes_stresses(diameter, axes):
     """The elastic solution of a prism 0.2 D wide, contacts a hundred times as stiff: within 3 %.
 
-    A homogeneous disc between such facets comes to 0.985 to 0.996 (doc/record/solids); its faces
-    bear more than its middle.
+    A homogeneous disc between such facets comes to 0.985 to 0.996 (scripts/studies/solid_discs.py);
+    its faces bear more than its middle.
     """
     depth = 0.25 * diameter
     rock = flexpm.materials.load("augig-table7")

@@ -143,7 +143,7 @@ def test_a_normal_stress_in_other_units_is_doubtful():
 @pytest.mark.parametrize(
     ("test", "cohesion", "rate", "told"),
     [
-        # the rock has 30 MPa; errors of these: doc/record/rates
+        # the rock has 30 MPa
         ("biaxial", 2e6, 1.0, True),
         ("biaxial", 2e6, 0.25, False),
         ("biaxial", 8e6, 1.0, False),
