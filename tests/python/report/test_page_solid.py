@@ -143,6 +143,7 @@ def test_a_very_large_solid_has_no_map_and_its_page_says_so(ended, tmp_path, mon
     assert "no map" not in (folder / page.FILE).read_text()
 
 
+@pytest.mark.night
 @pytest.mark.parametrize("kind", ["gone", "torn", "of the plane"])
 def test_without_its_last_state_a_solid_has_no_stress(browser, ended, tmp_path, kind):
     folder = copied(ended, tmp_path / "copy")
@@ -202,6 +203,7 @@ def test_a_browser_without_webgl_says_so(without_webgl, ended):
     assert not without_webgl.find_element("id", "map-solid-shown").is_displayed()
 
 
+@pytest.mark.night
 def test_a_page_without_the_library_says_so(browser, ended, tmp_path, monkeypatch):
     assert "Permission is hereby granted" in (ended / page.FILE).read_text(encoding="utf-8")
     monkeypatch.setattr(page, "TURNING", (tmp_path / "none.js",))
