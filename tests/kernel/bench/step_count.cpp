@@ -5,7 +5,6 @@
 #include "solid_loaded.hpp"
 
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
 
 #include <cstdio>
 #include <exception>

@@ -193,7 +193,7 @@ TEST_CASE("two grains out of line: opening and slip along the chosen normal", "[
     CHECK(point.opening == Approx(way * n.x).epsilon(1e-5));
     CHECK(std::fabs(point.slip) == Approx(way * n.y).epsilon(1e-5).margin(1e-15));
     // K_n along the normal and eta K_n across it pull the grain back
-    const Point force = flexpm::resultant_on(a.grains, 1).force;
+    const auto force = flexpm::resultant_on(a.grains, 1).force;
     CHECK(force.x == Approx(-k * area * way * (n.x * n.x + ratio * n.y * n.y)).epsilon(1e-5));
     CHECK(
         force.y == Approx(-k * area * way * (1.0 - ratio) * n.x * n.y).epsilon(1e-5).margin(1e-7));

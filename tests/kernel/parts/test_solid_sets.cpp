@@ -6,7 +6,7 @@
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
 #include <flexpm/kernel/parts/solid_sets.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/step/solid_step.hpp>
 

@@ -5,7 +5,7 @@
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/topology/solid_build.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/step/solid_step.hpp>
 #include <flexpm/kernel/statics/solid_loading.hpp>

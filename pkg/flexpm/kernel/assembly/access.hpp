@@ -79,6 +79,29 @@ template <class Visit> void for_each_component(const Grains& grains, Visit visit
         if (!grains.erased[g]) for_each_component(grains, g, visit);
 }
 
+/// Sum of the forces on the nodes of a grain [N], and their moment about its centre [N m]: in 2D
+/// about z.
+struct Resultant {
+    Vector force;
+    Vector moment;
+};
+inline Resultant resultant_on(const Grains& grains, int grain)
+{
+    const int centre = grains.centre(grain);
+    const Vector middle = grains.position(centre);
+    // in 3D the centre of a rigid grain holds the sum of the others
+    const bool is_sum = grains.layout.dimension == 3 && grains.is_rigid(grain);
+    Resultant sum;
+    for (int n = 0; n < grains.nodes_of(grain); ++n) {
+        const int node = grains.node(grain, n);
+        if (is_sum && node == centre) continue;
+        const Vector force = grains.vector(grains.force, node);
+        sum.force = sum.force + force;
+        sum.moment = sum.moment + cross(grains.position(node) - middle, force);
+    }
+    return sum;
+}
+
 /// Numbers of contacts, without erased ones.
 struct ContactCount {
     int between = 0;   ///< bonds of grains of the rock, those that have ended included

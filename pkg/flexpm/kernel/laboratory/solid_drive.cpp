@@ -6,7 +6,7 @@
 #include <flexpm/kernel/parts/solid_sets.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 
 namespace flexpm {
 

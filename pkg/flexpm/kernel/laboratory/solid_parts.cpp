@@ -10,7 +10,7 @@
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/parts/surface_pieces.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 

@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Sums over an assembly.
+/// @file  Sums over a specimen.
 #include <flexpm/kernel/measure/energy_balance.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
+#include <flexpm/kernel/measure/energy_sums.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/plate_contact.hpp>
-#include <flexpm/kernel/measure/energy_sums.hpp>
-#include <flexpm/kernel/measure/part_sums.hpp>
-#include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
+#include <flexpm/kernel/parts/solid_plates.hpp>
+#include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
+#include <set>
+#include <type_traits>
+#include <vector>
 
 namespace flexpm {
 
 namespace {
+
+template <class State> constexpr bool is_plane = std::is_same_v<State, Assembly>;
 
 FLEXPM_INLINE bool all_finite(const double* values, int count)
 {
@@ -29,32 +35,154 @@ FLEXPM_INLINE bool all_finite(const double* values, int count)
     return bad == 0;
 }
 
+/// Sum of the first values of pairs: work done up to the present places.
+double first_of_pairs(const Array<double>& pairs)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < pairs.size(); i += 2)
+        sum += pairs[i];
+    return sum;
+}
+
+/// Energy of friction of a plate's contacts [J].
+double friction_of(const Plate& plate)
+{
+    return std::accumulate(plate.rubbed.begin(), plate.rubbed.end(), plate.friction_energy);
+}
+
+/// Stored in grains and contacts [J].
+double stored_energy(const Assembly& a)
+{
+    return strain_energy(a.grains) + contact_energy(a.contacts);
+}
+double stored_energy(const SolidState& s) { return strain_energy(s) + contact_energy(s); }
+
+/// Power that damping takes from the turn of a rigid grain, without the factor of damping [W].
+double power_of_turn(const Assembly& a, int grain, Vector moment)
+{
+    const int slot = a.grains.slot[grain];
+    if (a.grains.spin_prescribed[slot]) return 0.0;
+    return std::fabs(moment.z * (a.grains.spin[slot] - a.undamped().spin[slot]));
+}
+double power_of_turn(const SolidState& s, int grain, Vector moment)
+{
+    if (s.bodies[grain].spin_held) return 0.0;
+    const Vector spin = s.bodies[grain].spin - spin_in(s.undamped(), grain);
+    return std::fabs(moment.x * spin.x) + std::fabs(moment.y * spin.y)
+        + std::fabs(moment.z * spin.z);
+}
+
+/// Call add(force, velocity) for each component that damping acts on, of loaded plates and of node
+/// sets that float: unbalanced force [N], and velocity beyond that of the loading [m/s].
+template <class Add> void for_each_damped_part(const BondedState& s, Add add)
+{
+    for (std::size_t i = 0; i < s.plates.size(); ++i) {
+        const Plate& p = s.plates[i];
+        if (!p.loaded) continue;
+        add(p.unbalanced, dot(p.normal, p.velocity - s.loading.of_plate(i).velocity));
+    }
+    for (std::size_t i = 0; i < s.node_sets.size(); ++i) {
+        const NodeSet& set = s.node_sets[i];
+        if (!set.floats) continue;
+        const Vector v = set.velocity - s.loading.of_set(i).velocity;
+        add(set.force.x, v.x);
+        add(set.force.y, v.y);
+        add(set.force.z, v.z);
+    }
+}
+
+/// Largest unbalanced force of a specimen [N]: component on a free node, or on a plate under a load
+/// or a node set that floats, there divided by the number of its grains (deviation D103).
+///
+/// @param grain_of  grain of each facet of the boundary
+double largest_unbalanced(const BondedState& s, const std::vector<int>& grain_of)
+{
+    const auto& forces = s.ledger.largest_force;
+    double largest = *std::max_element(forces.begin(), forces.end());
+    const auto per_grain = [](double force, const std::set<int>& grains) {
+        return force / static_cast<double>(grains.size());
+    };
+    for (const Plate& p : s.plates) {
+        if (!(p.unbalanced > 0.0)) continue;
+        std::set<int> grains;
+        for (int facet : p.facets)
+            grains.insert(grain_of[facet]);
+        largest = std::max(largest, per_grain(p.unbalanced, grains));
+    }
+    for (const NodeSet& set : s.node_sets) {
+        if (!(set.unbalanced > 0.0)) continue;
+        const std::set<int> grains(set.grains.begin(), set.grains.end());
+        largest = std::max(largest, per_grain(set.unbalanced, grains));
+    }
+    return largest;
+}
+
+/// Grain of each facet of the boundary.
+const std::vector<int>& grain_of_facets(const Assembly& a) { return a.facets.grain; }
+const std::vector<int>& grain_of_facets(const SolidState& s) { return s.surface.grain; }
+
+/// Number of contacts that have not been erased, and the sum of their forces [N].
+struct ContactForces {
+    std::int64_t contacts;
+    double sum;
+};
+ContactForces contact_forces(const Assembly& a)
+{
+    const auto& erased = a.contacts.erased;
+    return { a.contacts.count - std::count(erased.begin(), erased.end(), 1),
+        sum_of_forces(a.contacts) };
+}
+ContactForces contact_forces(const SolidState& s) { return { s.contacts.count, sum_of_forces(s) }; }
+
+/// Largest unbalanced force over the mean of `contacts` contact forces [-].
+double ratio_of_forces(double largest, double contacts, double sum_of_forces)
+{
+    if (sum_of_forces > 0.0) return largest * contacts / sum_of_forces;
+    // a specimen that flies apart is not in balance
+    return contacts > 0.0 && largest > 0.0 ? 1.0 : 0.0;
+}
+
+/// Call visit(mode) for all points of contacts that may have cracked.
+template <class Visit> void for_each_crack_mode(const Contacts& contacts, Visit visit)
+{
+    for (std::uint8_t mode : contacts.crack_modes)
+        visit(mode);
+}
+template <class Visit> void for_each_crack_mode(const FaceContacts& contacts, Visit visit)
+{
+    for (const auto& block : contacts.cracks)
+        for (const FaceCrack& crack : block)
+            visit(crack.mode);
+}
+
 }  // namespace
 
-double damping_power(const Assembly& a, double damping)
+template <class State> double damping_power(const State& s, double damping)
 {
-    const Grains& grains = a.grains;
-    const GrainMotion& undamped = a.undamped();
+    const Grains& grains = s.grains;
+    const Array<double>& undamped = s.undamped().velocity;
     double total = 0.0;
     const auto add = [&](double force, double velocity) { total += std::fabs(force * velocity); };
-    const auto add_vector = [&](Point force, int node) {
-        const Point v = grains.velocity_at(node) - grains.vector_at(undamped.velocity, node);
-        if (!grains.prescribed[grains.component(node, 0)]) add(force.x, v.x);
-        if (!grains.prescribed[grains.component(node, 1)]) add(force.y, v.y);
+    const auto add_vector = [&](Vector force, int node) {
+        const Vector v = grains.vector(grains.velocity, node) - grains.vector(undamped, node);
+        const auto is_free = [&](int axis) {
+            return !grains.prescribed[grains.component(node, axis)];
+        };
+        if (is_free(0)) add(force.x, v.x);
+        if (is_free(1)) add(force.y, v.y);
+        if (grains.layout.dimension == 3 && is_free(2)) add(force.z, v.z);
     };
     for (int g = 0; g < grains.count; ++g) {
         if (grains.is_rigid(g)) {
-            const int slot = grains.slot[g];
             const Resultant on = resultant_on(grains, g);
             add_vector(on.force, grains.centre(g));
-            if (!grains.spin_prescribed[slot])
-                add(on.moment, grains.spin[slot] - undamped.spin[slot]);
+            total += power_of_turn(s, g, on.moment);
             continue;
         }
         for (int n = 0; n < grains.nodes_of(g); ++n)
-            add_vector(grains.force_at(grains.node(g, n)), grains.node(g, n));
+            add_vector(grains.vector(grains.force, grains.node(g, n)), grains.node(g, n));
     }
-    for_each_damped_part(a, add);
+    for_each_damped_part(s, add);
     return damping * total;
 }
 
@@ -81,15 +209,62 @@ double kinetic_of_velocities(const Grains& grains)
     return total;
 }
 
-Dissipation dissipation(const Assembly& a) { return dissipation_of(a, contact_loss(a.contacts)); }
-
-Energies energies(const Assembly& a)
+double kinetic_of_velocities(const SolidState& s)
 {
-    const double stored = strain_energy(a.grains) + contact_energy(a.contacts);
-    Energies e =
-        energies_of(a, dissipation(a), stored, [](const Plate& p) { return elastic_energy(p); });
-    e.softened = softened_energy(a.contacts);
-    e.potential = potential_energy(a);
+    double sum = kinetic_of_velocities(s.grains);
+    for (const RigidBody& body : s.bodies)
+        if (!body.spin_held) sum += 0.5 * dot(body.spin, body.angular_momentum);
+    for (const Plate& plate : s.plates)
+        if (plate.loaded) sum += 0.5 * plate.mass * dot(plate.velocity, plate.velocity);
+    return sum;
+}
+
+template <class State> Dissipation dissipation(const State& s)
+{
+    const ContactLoss contact = contact_loss(s.contacts);
+    Dissipation d;
+    d.damage = contact.damage + s.ledger.removed_damage;
+    d.friction = contact.friction + s.ledger.removed_friction;
+    d.boundary_work = first_of_pairs(s.ledger.prescribed_work) + s.ledger.pressure_work;
+    for (const Plate& p : s.plates) {
+        d.friction += friction_of(p);
+        d.boundary_work += p.boundary_work;
+    }
+    for (const NodeSet& set : s.node_sets)
+        d.boundary_work -= set.float_work;  // which the ledger holds as work on its nodes
+    return d;
+}
+
+template <class State> Energies energies(const State& s)
+{
+    const Dissipation d = dissipation(s);
+    Energies e;
+    e.kinetic = std::accumulate(s.ledger.kinetic.begin(), s.ledger.kinetic.end(), 0.0);
+    e.elastic = stored_energy(s);
+    e.damage = d.damage;
+    e.softened = softened_energy(s.contacts);
+    e.friction = d.friction;
+    e.boundary_work = d.boundary_work;
+    e.erased = s.ledger.erased;
+    e.initial = s.ledger.initial;
+    e.drag = first_of_pairs(s.ledger.drag_work);
+    double damped = first_of_pairs(s.ledger.damping_work);
+    for (const Plate& p : s.plates) {
+        e.kinetic += p.kinetic;
+        if constexpr (is_plane<State>)
+            e.elastic += elastic_energy(p);
+        else
+            e.elastic += solid_plate_energy(p);
+        damped += p.damping_work;
+        e.drag += p.drag_work;
+    }
+    for (const NodeSet& set : s.node_sets) {
+        e.kinetic += set.kinetic;
+        damped += set.damping_work;
+        e.drag += set.drag_work;
+    }
+    e.damping = damped - e.drag;
+    if constexpr (is_plane<State>) e.potential = potential_energy(s);
     return e;
 }
 
@@ -128,41 +303,51 @@ void reset_energy_balance(Assembly& a)
     a.ledger.initial = now.kinetic + now.elastic + now.potential - start;
 }
 
-double unbalanced_ratio(const Assembly& a)
+template <class State> double unbalanced_ratio(const State& s)
 {
-    const auto& erased = a.contacts.erased;
-    const auto left = a.contacts.count - std::count(erased.begin(), erased.end(), 1);
-    return ratio_of_forces(largest_unbalanced(a, a.facets.grain), static_cast<double>(left),
-        sum_of_forces(a.contacts));
+    const ContactForces forces = contact_forces(s);
+    return ratio_of_forces(largest_unbalanced(s, grain_of_facets(s)),
+        static_cast<double>(forces.contacts), forces.sum);
 }
 
-CrackCount count_cracks(const Assembly& a)
+template <class State> CrackCount count_cracks(const State& s)
 {
     CrackCount count;
-    for (std::uint8_t mode : a.contacts.crack_modes) {
+    for_each_crack_mode(s.contacts, [&](int mode) {
         count.tensile += mode == tensile_crack;
         count.shear += mode == shear_crack;
-    }
+    });
     return count;
 }
 
-std::string find_bad_number(const Assembly& a)
+std::string find_bad_number(const BondedState& s)
 {
-    const Grains& grains = a.grains;
+    const Grains& grains = s.grains;
     const int values = static_cast<int>(grains.force.size());
     const auto finite = variant_of<all_finite>();
     if (finite(grains.force.data(), values) && finite(grains.velocity.data(), values)) return {};
     for (int g = 0; g < grains.count; ++g) {
         for (int n = 0; n < grains.nodes_of(g); ++n) {
             const int node = grains.node(g, n);
-            const bool force = is_finite(grains.force_at(node));
-            if (force && is_finite(grains.velocity_at(node))) continue;
+            const bool force = is_finite(grains.vector(grains.force, node));
+            if (force && is_finite(grains.vector(grains.velocity, node))) continue;
             return std::string(force ? "velocity" : "force") + " of node " + std::to_string(n)
                 + " of grain " + std::to_string(g) + " is not a finite number at step "
-                + std::to_string(a.step) + "; lower the loading rate or check the material";
+                + std::to_string(s.step) + "; lower the loading rate or check the material";
         }
     }
     return {};
 }
+
+template Energies energies(const Assembly&);
+template Energies energies(const SolidState&);
+template Dissipation dissipation(const Assembly&);
+template Dissipation dissipation(const SolidState&);
+template double damping_power(const Assembly&, double);
+template double damping_power(const SolidState&, double);
+template double unbalanced_ratio(const Assembly&);
+template double unbalanced_ratio(const SolidState&);
+template CrackCount count_cracks(const Assembly&);
+template CrackCount count_cracks(const SolidState&);
 
 }  // namespace flexpm

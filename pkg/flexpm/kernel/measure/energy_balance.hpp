@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Sums over an assembly: energies, unbalanced force, cracks, and the search for bad
-/// numbers. All sums run in a fixed order.
+/// @file  Sums over a specimen of 2D or 3D: energies, unbalanced force, cracks, and the search for
+/// bad numbers. `State` is Assembly or SolidState. All sums run in a fixed order. SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
 
 #include <string>
 
@@ -13,7 +14,7 @@ namespace flexpm {
 /// the others but for the discrete steps of the law.
 struct Energies {
     double kinetic = 0.0;  ///< 1/2 m v(n-1/2) v(n+1/2); of the last measured step
-    double elastic = 0.0;  ///< triangles and contact points
+    double elastic = 0.0;  ///< elements, contact points and plates
     double damage = 0.0;
     double softened = 0.0;  ///< part of the damage: in points that have not cracked
     double friction = 0.0;
@@ -21,13 +22,13 @@ struct Energies {
     /// Taken from that motion, of the loading and of the descent (D30, D55): below 0 what damping
     /// has given to it.
     double drag = 0.0;
-    double potential = 0.0;      ///< in the field of gravity, 0 at the reference
+    double potential = 0.0;      ///< in the field of gravity (2D), 0 at the reference
     double erased = 0.0;         ///< has left with grains and bonds that scripts have erased
     double boundary_work = 0.0;  ///< of prescribed velocities, plates and edge pressure
     double initial = 0.0;
 };
 
-Energies energies(const Assembly& a);
+template <class State> Energies energies(const State& s);
 
 /// Those of the energies that say what a loading does to the specimen [J].
 struct Dissipation {
@@ -36,12 +37,12 @@ struct Dissipation {
     double boundary_work = 0.0;
 };
 
-Dissipation dissipation(const Assembly& a);
+template <class State> Dissipation dissipation(const State& s);
 
-/// Power that local damping takes from what grains and loaded plates move beyond the velocities of
-/// the loading, by the forces and velocities of the last step [W, or J per unit step]. Waves that
-/// cracks send out feed it.
-double damping_power(const Assembly& a, double damping);
+/// Power that local damping takes from what grains, loaded plates and floating node sets move beyond
+/// the motion that damping leaves alone, by the forces and velocities of the last step [W, or J per
+/// unit step]. Waves that cracks send out feed it.
+template <class State> double damping_power(const State& s, double damping);
 
 /// Start a new energy balance: the present energy becomes the initial energy, works and
 /// dissipation count from zero. Before the first step the kinetic energy is that of the velocities
@@ -51,19 +52,22 @@ void reset_energy_balance(Assembly& a);
 /// Kinetic energy as if no force acted on the present velocities: 1/2 m v^2 [J].
 double kinetic_of_velocities(const Grains& grains);
 
+/// The same of grains that deform or are rigid and of loaded plates in 3D [J].
+double kinetic_of_velocities(const SolidState& s);
+
 /// Largest force component on a free node, on a loaded part per grain (D103), over the mean contact
 /// force [-]; of the last measured step. 1 if a node bears a force and no contact does; else 0.
-double unbalanced_ratio(const Assembly& a);
+template <class State> double unbalanced_ratio(const State& s);
 
 /// Cracked points; erased ones did not crack.
 struct CrackCount {
     int tensile = 0;
     int shear = 0;
 };
-CrackCount count_cracks(const Assembly& a);
+template <class State> CrackCount count_cracks(const State& s);
 
 /// Empty if all is well, else one line that names the step, the grain and the quantity that is not
 /// a finite number.
-std::string find_bad_number(const Assembly& a);
+std::string find_bad_number(const BondedState& s);
 
 }  // namespace flexpm

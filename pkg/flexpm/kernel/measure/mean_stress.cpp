@@ -99,7 +99,7 @@ template <class Visit> void for_each_net_force(const Grains& grains, Visit visit
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
         if (grains.is_rigid(g)) {
-            free(resultant_on(grains, g).force, grains.centre(g));
+            free(in_plane(resultant_on(grains, g).force), grains.centre(g));
             continue;
         }
         for (int n = 0; n < grains.nodes_of(g); ++n)

@@ -32,9 +32,9 @@ Vector held_part(const NodeSet& set, Vector p)
 Vector reaction_at(const Assembly& a, const NodeSet& set, std::size_t i)
 {
     const int grain = set.grains[i];
-    const Point on = a.grains.is_rigid(grain) ? resultant_on(a.grains, grain).force
-                                              : vector_at(a.grains.force, set.nodes[i]);
-    return held_part(set, Point {} - on);
+    const Vector on = a.grains.is_rigid(grain) ? resultant_on(a.grains, grain).force
+                                               : a.grains.vector(a.grains.force, set.nodes[i]);
+    return held_part(set, Vector {} - on);
 }
 
 /// Velocity of a place of a set, at which a step takes it to where the rotation, about z, does.

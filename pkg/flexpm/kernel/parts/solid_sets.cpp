@@ -49,7 +49,7 @@ Holdable holdable(const SolidState& s)
 /// All forces on a node that has a motion of its own, of a rigid grain on that [N].
 Vector force_on(const SolidState& s, int grain, int node)
 {
-    return s.grains.is_rigid(grain) ? wrench_on(s, grain).force
+    return s.grains.is_rigid(grain) ? resultant_on(s.grains, grain).force
                                     : space_vector(s.grains.force, node);
 }
 

@@ -79,17 +79,4 @@ PolygonSection cell_section(const Grains& grains, int grain)
     return polygon_section(corners, vector_at(grains.reference, grains.centre(grain)));
 }
 
-Resultant resultant_on(const Grains& grains, int grain)
-{
-    Resultant sum = { { 0.0, 0.0 }, 0.0 };
-    const Point c = grains.point_at(grains.centre(grain));
-    for (int n = 0; n < grains.nodes_of(grain); ++n) {
-        const int node = grains.node(grain, n);
-        const Point f = vector_at(grains.force, node);
-        sum.force = sum.force + f;
-        sum.moment += cross(grains.point_at(node) - c, f);
-    }
-    return sum;
-}
-
 }  // namespace flexpm

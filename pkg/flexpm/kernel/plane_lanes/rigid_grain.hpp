@@ -41,11 +41,4 @@ FLEXPM_INLINE HalfTurn half_turn_of(double along, double across)
 /// Section of the grain's cell in its reference shape.
 PolygonSection cell_section(const Grains& grains, int grain);
 
-/// Sum of the nodal forces on a grain [N], and their moment about its centre [N m].
-struct Resultant {
-    Point force;
-    double moment;
-};
-Resultant resultant_on(const Grains& grains, int grain);
-
 }  // namespace flexpm

@@ -135,23 +135,6 @@ Vector contact_force(const SolidState& s, int contact)
     return sum;
 }
 
-SpaceResultant resultant_on(const SolidState& s, int grain)
-{
-    const Grains& grains = s.grains;
-    const int centre = grains.centre(grain);
-    const Vector middle = grains.position(centre);
-    SpaceResultant sum;
-    for (int n = 0; n < grains.nodes_of(grain); ++n) {
-        const int node = grains.node(grain, n);
-        // the centre of a rigid grain holds the sum of the others
-        if (node == centre && grains.is_rigid(grain)) continue;
-        const Vector force = space_vector(grains.force, node);
-        sum.force = sum.force + force;
-        sum.moment = sum.moment + cross(grains.position(node) - middle, force);
-    }
-    return sum;
-}
-
 Vector node_velocity(const SolidState& s, int grain, int node)
 {
     if (s.bodies.empty()) return space_vector(s.grains.velocity, node);

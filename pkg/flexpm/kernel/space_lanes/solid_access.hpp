@@ -65,13 +65,6 @@ std::vector<Vector> point_forces(const SolidState& s, int contact);
 /// Force of a contact on its second grain; that on the first is the opposite [N].
 Vector contact_force(const SolidState& s, int contact);
 
-/// Sum of the forces on the nodes of a grain [N], and their moment about its centre [N m].
-struct SpaceResultant {
-    Vector force;
-    Vector moment;
-};
-SpaceResultant resultant_on(const SolidState& s, int grain);
-
 /// Velocity of a node, of a rigid grain by its motion [m/s].
 Vector node_velocity(const SolidState& s, int grain, int node);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 
+#include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/core/rows_of_four.hpp>
@@ -51,8 +52,8 @@ FLEXPM_INLINE void place_nodes(
     }
 }
 
-/// Sum of the forces on all nodes but the centre, and their moment about it.
-FLEXPM_INLINE void sum_wrench(const BodyNodes& b, Wrench& to)
+/// Sum of the forces on all nodes but the centre, and their moment about it: resultant_on().
+FLEXPM_INLINE void sum_forces(const BodyNodes& b, Resultant& to)
 {
     constexpr int stride = space_layout.node_stride;
     const double *centre = b.reference + b.vertices * stride,
@@ -158,7 +159,9 @@ void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& su
 {
     Grains& grains = s.grains;
     const int grain = grains.in_slot[block * lanes], centre = grains.centre(grain);
-    const auto [force, moment] = wrench_on(s, grain);
+    Resultant on;
+    variant_of<sum_forces>()(body_nodes(s, grain), on);
+    const auto [force, moment] = on;
     set_space_vector(grains.force, centre, force);
     const double inverse_mass = grains.inverse_mass[grains.scalar_index(centre)];
     const Array<double>& undamped = s.undamped().velocity;
@@ -170,13 +173,6 @@ void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& su
     }
     sums.largest[0] = std::max(sums.largest[0], norm(moment) / grains.radius[grain]);
     integrate_turn(s.bodies[grain], moment, spin_in(s.undamped(), grain), o, sums);
-}
-
-Wrench wrench_on(const SolidState& s, int grain)
-{
-    Wrench found;
-    variant_of<sum_wrench>()(body_nodes(s, grain), found);
-    return found;
 }
 
 void place_body(SolidState& s, int grain, Vector way)

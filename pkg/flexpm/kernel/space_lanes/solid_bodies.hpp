@@ -17,14 +17,6 @@ void move_body(SolidState& s, int block, double dt);
 /// has the momentum.
 void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums);
 
-/// Force on a rigid grain [N] and moment about its centre [N m].
-struct Wrench {
-    Vector force, moment;
-};
-
-/// Those of the forces on its nodes, at the last step.
-Wrench wrench_on(const SolidState& s, int grain);
-
 /// Put a rigid grain where centre and turn are, by its number.
 /// @param way  of its centre since the reference [m]
 void place_body(SolidState& s, int grain, Vector way);

@@ -3,7 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/step/solid_step.hpp>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/topology/erasure.hpp>
 
+#include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/plane_lanes/crack_record.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/parts/plate_contact.hpp>
@@ -38,7 +39,7 @@ double power_on(const Grains& grains, int grain)
     if (grains.is_rigid(grain)) {
         const Resultant on = resultant_on(grains, grain);
         return dot(on.force, grains.velocity_at(grains.centre(grain)))
-            + on.moment * grains.spin[grains.slot[grain]];
+            + on.moment.z * grains.spin[grains.slot[grain]];
     }
     double power = 0.0;
     for (int n = 0; n < grains.nodes_of(grain); ++n) {

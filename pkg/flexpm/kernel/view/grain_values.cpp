@@ -5,7 +5,7 @@
 #include <flexpm/kernel/fem/triangle.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #include <flexpm/kernel/view/solid_snapshot.hpp>
 
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 
 namespace flexpm {
 

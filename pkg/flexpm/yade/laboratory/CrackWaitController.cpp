@@ -8,7 +8,6 @@
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <limits>

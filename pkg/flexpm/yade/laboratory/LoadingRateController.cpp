@@ -2,7 +2,7 @@
 #include <flexpm/yade/laboratory/LoadingRateController.hpp>
 
 #include <flexpm/kernel/laboratory/loading_rate.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {

@@ -4,7 +4,6 @@
 
 #include <flexpm/kernel/assembly/state_check.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 #include <flexpm/kernel/topology/loose_grains.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>

@@ -7,7 +7,6 @@
 #include <flexpm/kernel/plane_lanes/centre_motion.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
 #include <algorithm>
@@ -117,25 +116,6 @@ void GrainSolver::hideBonds(const Scene& world)
 	bondsShown = false;
 }
 
-namespace {
-
-	struct Resultant {
-		Vector3r force, torque;
-	};
-
-	Resultant resultantOn(const flexpm::Assembly& a, int grain)
-	{
-		const auto sum = flexpm::resultant_on(a.grains, grain);
-		return { toYade(sum.force), Vector3r(0, 0, sum.moment) };
-	}
-	Resultant resultantOn(const flexpm::SolidState& s, int grain)
-	{
-		const auto sum = flexpm::resultant_on(s, grain);
-		return { toYade(sum.force), toYade(sum.moment) };
-	}
-
-} // namespace
-
 void GrainSolver::mirrorForces(Scene& world)
 {
 	struct Change {
@@ -148,9 +128,9 @@ void GrainSolver::mirrorForces(Scene& world)
 		const Body* body = bodyOf(world, grain);
 		if (!body) continue;
 		const auto id  = body->getId();
-		const auto now = onState([&](const auto& state) { return resultantOn(state, grain); });
+		const auto now = flexpm::resultant_on(grains(), grain);
 		// YADE adds forces up until it resets them: what the last look has left is taken off
-		changes.push_back({ id, now.force - world.forces.getForce(id), now.torque - world.forces.getTorque(id) });
+		changes.push_back({ id, toYade(now.force) - world.forces.getForce(id), toYade(now.moment) - world.forces.getTorque(id) });
 	}
 	for (const Change& change : changes) {
 		world.forces.addForce(change.id, change.force);

@@ -11,7 +11,6 @@
 #include <flexpm/kernel/measure/grain_parting.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
 #include <flexpm/kernel/measure/overlaps.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 
 #include <algorithm>

@@ -12,7 +12,7 @@
 #include <flexpm/kernel/parts/solid_sets.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/topology/solid_build.hpp>
-#include <flexpm/kernel/measure/solid_energies.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/forces/solid_pressure.hpp>

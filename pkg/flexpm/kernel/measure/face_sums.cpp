@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <flexpm/kernel/measure/solid_energies.hpp>
+/// @file  Energies and forces of the faces between polyhedral grains, `lanes` at a time.
+#include <flexpm/kernel/measure/energy_sums.hpp>
 
 #include <flexpm/kernel/core/instruction_set.hpp>
-#include <flexpm/kernel/measure/energy_sums.hpp>
 #include <flexpm/kernel/core/lane_sum.hpp>
-#include <flexpm/kernel/measure/part_sums.hpp>
 #include <flexpm/kernel/space_lanes/face_lanes.hpp>
-#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
-#include <flexpm/kernel/parts/solid_plates.hpp>
-#include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
-
-#include <algorithm>
-#include <cmath>
 
 namespace flexpm {
 
@@ -108,7 +101,9 @@ template <class Visit> void for_each_block(const SolidState& s, Visit visit)
     }
 }
 
-double stored_in_points(const SolidState& s)
+}  // namespace
+
+double contact_energy(const SolidState& s)
 {
     LaneSum sum;
     const auto add = variant_of<add_stored<false>, add_stored<true>>();
@@ -116,7 +111,7 @@ double stored_in_points(const SolidState& s)
     return sum.total();
 }
 
-ContactLoss lost_in_points(const FaceContacts& c)
+ContactLoss contact_loss(const FaceContacts& c)
 {
     LaneSum damage, friction;
     const auto add = variant_of<add_lost>();
@@ -128,8 +123,7 @@ ContactLoss lost_in_points(const FaceContacts& c)
     return { damage.total(), friction.total() };
 }
 
-/// Dissipated by damage in points that have softened and not cracked [J].
-double softened_in_points(const FaceContacts& c)
+double softened_energy(const FaceContacts& c)
 {
     LaneSum whole, friction;
     double rest = 0.0;
@@ -149,62 +143,7 @@ double softened_in_points(const FaceContacts& c)
     return whole.total() + rest;
 }
 
-}  // namespace
-
-Dissipation dissipation(const SolidState& s)
-{
-    return dissipation_of(s, lost_in_points(s.contacts));
-}
-
-Energies energies(const SolidState& s)
-{
-    Energies e =
-        energies_of(s, dissipation(s), strain_energy(s) + stored_in_points(s), solid_plate_energy);
-    e.softened = softened_in_points(s.contacts);
-    return e;
-}
-
-double kinetic_of_velocities(const SolidState& s)
-{
-    double sum = kinetic_of_velocities(s.grains);
-    for (const RigidBody& body : s.bodies)
-        if (!body.spin_held) sum += 0.5 * dot(body.spin, body.angular_momentum);
-    for (const Plate& plate : s.plates)
-        if (plate.loaded) sum += 0.5 * plate.mass * dot(plate.velocity, plate.velocity);
-    return sum;
-}
-
-double damping_power(const SolidState& s, double damping)
-{
-    const Grains& grains = s.grains;
-    const GrainMotion& undamped = s.undamped();
-    double total = 0.0;
-    const auto add = [&](double force, double velocity) { total += std::fabs(force * velocity); };
-    const auto add_node = [&](int node) {
-        for (int axis = 0; axis < grains.layout.dimension; ++axis) {
-            const int i = grains.component(node, axis);
-            if (grains.prescribed[i]) continue;
-            add(grains.force[i], grains.velocity[i] - undamped.velocity[i]);
-        }
-    };
-    for (int g = 0; g < grains.count; ++g) {
-        if (!grains.is_rigid(g)) {
-            for (int n = 0; n < grains.nodes_of(g); ++n)
-                add_node(grains.node(g, n));
-            continue;
-        }
-        add_node(grains.centre(g));
-        if (s.bodies[g].spin_held) continue;
-        const Vector moment = wrench_on(s, g).moment,
-                     spin = s.bodies[g].spin - spin_in(undamped, g);
-        total += std::fabs(moment.x * spin.x) + std::fabs(moment.y * spin.y)
-            + std::fabs(moment.z * spin.z);
-    }
-    for_each_damped_part(s, add);
-    return damping * total;
-}
-
-double unbalanced_ratio(const SolidState& s)
+double sum_of_forces(const SolidState& s)
 {
     double sum = 0.0;
     const auto add = variant_of<sum_forces<false>, sum_forces<true>>();
@@ -214,35 +153,7 @@ double unbalanced_ratio(const SolidState& s)
         for (int l = 0; l < lanes; ++l)
             sum += norm(load_vector(forces, l));  // 0 of a padded lane
     });
-    return ratio_of_forces(largest_unbalanced(s, s.surface.grain), s.contacts.count, sum);
-}
-
-std::string find_bad_number(const SolidState& s)
-{
-    const Grains& grains = s.grains;
-    for (int g = 0; g < grains.count; ++g) {
-        for (int n = 0; n < grains.nodes_of(g); ++n) {
-            const int node = grains.node(g, n);
-            const bool force = is_finite(space_vector(grains.force, node));
-            if (force && is_finite(space_vector(grains.velocity, node))) continue;
-            return std::string(force ? "velocity" : "force") + " of node " + std::to_string(n)
-                + " of grain " + std::to_string(g) + " is not a finite number at step "
-                + std::to_string(s.step) + "; lower the loading rate or check the material";
-        }
-    }
-    return {};
-}
-
-CrackCount count_cracks(const SolidState& s)
-{
-    CrackCount count;
-    for (const auto& block : s.contacts.cracks) {
-        for (const FaceCrack& crack : block) {
-            count.tensile += crack.mode == tensile_crack;
-            count.shear += crack.mode == shear_crack;
-        }
-    }
-    return count;
+    return sum;
 }
 
 }  // namespace flexpm
