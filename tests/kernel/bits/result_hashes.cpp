@@ -138,7 +138,7 @@ void print_run(const sample_runs::Run& run, flexpm::InstructionSet set)
     }
     const flexpm::Snapshot seen = flexpm::take_snapshot(a);
     hash.add(seen.positions);
-    hash.add(seen.triangle_stress);
+    hash.add(seen.element_stress);
     hash.add(seen.point_traction);
     hash.add(seen.crack_position);
     print(run.name + ", " + flexpm::name_of(set), hash);

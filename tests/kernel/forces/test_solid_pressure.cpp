@@ -3,15 +3,15 @@
 /// confined specimen, what is loose, the same bits.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/measure/solid_balance.hpp>
+#include <flexpm/kernel/forces/solid_pressure.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
-#include <flexpm/kernel/topology/loose_grains.hpp>
-#include <flexpm/kernel/view/solid_snapshot.hpp>
-#include <flexpm/kernel/space_lanes/solid_access.hpp>
+#include <flexpm/kernel/measure/mean_stress.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
-#include <flexpm/kernel/forces/solid_pressure.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
+#include <flexpm/kernel/topology/loose_grains.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 
 #include "assembly/members.hpp"
 #include "support/solid_states.hpp"
@@ -342,7 +342,7 @@ TEST_CASE("Three equal pressures strain a stiffly bonded solid as elasticity say
         for (std::size_t k = 0; k < 6; ++k)
             worst = std::max(worst, std::fabs(seen.grain_stress[g + k] + (k < 3 ? pressure : 0.0)));
     CHECK(worst < 0.01 * pressure);
-    const SolidBalance found = balance(s);
+    const Balance found = balance(s);
     CHECK(found.mean_stress.xx == Approx(-pressure).epsilon(1e-3));
     CHECK(found.mean_stress.yy == Approx(-pressure).epsilon(1e-3));
     CHECK(found.mean_stress.zz == Approx(-pressure).epsilon(1e-3));
@@ -357,7 +357,7 @@ TEST_CASE("Each side of a box stands at its own pressure, and the ends take over
         const Packing p = box(60, 2);
         SolidState s = made(p, rigid);
         confine(s, along_x, along_y, along_y, 400, 1000);
-        const SolidBalance found = balance(s);
+        const Balance found = balance(s);
         CAPTURE(rigid, found.mean_stress.xx, found.mean_stress.yy, found.mean_stress.zz);
         CHECK(found.mean_stress.xx == Approx(-along_x).epsilon(2e-3));
         CHECK(found.mean_stress.yy == Approx(-along_y).epsilon(2e-3));

@@ -213,8 +213,8 @@ TEST_CASE("particles know the grain of the rock that they are part of", "[inner]
     CHECK(bonded.between == outer);
     CHECK(bonded.between + bonded.within == a.contacts.count);
     const auto shown = flexpm::take_snapshot(a);
-    for (std::size_t t = 0; t < shown.triangle_grain.size(); ++t)
-        CHECK(shown.triangle_grain[t] == inner.grain[shown.triangle_particle[t]]);
+    for (std::size_t t = 0; t < shown.element_grain.size(); ++t)
+        CHECK(shown.element_grain[t] == inner.grain[shown.element_particle[t]]);
     for (int c = 0; c < a.contacts.count; ++c) {
         const bool between = shown.contact_grains[2 * c] != shown.contact_grains[2 * c + 1];
         CHECK(between == (inner.outer[c] != 0));

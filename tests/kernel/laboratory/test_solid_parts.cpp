@@ -3,11 +3,11 @@
 /// of them, one that a load moves, works.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/measure/solid_balance.hpp>
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
+#include <flexpm/kernel/measure/mean_stress.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 
 #include "support/solid_states.hpp"

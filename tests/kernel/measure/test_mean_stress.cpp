@@ -2,9 +2,9 @@
 /// @file  The mean stress of a specimen and the one of what acts on it from outside.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
@@ -33,7 +33,7 @@ void run(Assembly& a, int steps)
         flexpm::step(a, flexpm::StepOptions());
 }
 
-void check_stress(const flexpm::Tensor& stress, double xx, double yy, double margin)
+void check_stress(const flexpm::SpaceTensor& stress, double xx, double yy, double margin)
 {
     CHECK(std::fabs(stress.xx - xx) < margin * pressure);
     CHECK(std::fabs(stress.yy - yy) < margin * pressure);

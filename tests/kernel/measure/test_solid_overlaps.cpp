@@ -3,12 +3,12 @@
 /// overlaps.
 #include "support/catch.hpp"
 
+#include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/measure/solid_overlaps.hpp>
-#include <flexpm/kernel/view/solid_snapshot.hpp>
-#include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 
 #include "support/solid_states.hpp"
 
@@ -149,14 +149,14 @@ TEST_CASE("A snapshot of a solid has its volumes, places and stresses", "[solids
         const int grains = s.grains.count;
         CHECK(static_cast<int>(now.centres.size()) == 3 * grains);
         CHECK(now.node_offsets.size() == static_cast<std::size_t>(grains + 1));
-        CHECK(now.tetrahedra.size() == 4 * now.tetrahedron_grain.size());
-        CHECK(now.tetrahedron_stress.size() == 6 * now.tetrahedron_grain.size());
+        CHECK(now.elements.size() == 4 * now.element_grain.size());
+        CHECK(now.element_stress.size() == 6 * now.element_grain.size());
         CHECK(now.positions.size() == 3 * static_cast<std::size_t>(now.node_offsets.back()));
         CHECK(now.velocities.size() == now.positions.size());
-        for (std::size_t t = 0; t < now.tetrahedron_grain.size(); ++t) {
-            const int grain = now.tetrahedron_grain[t];
+        for (std::size_t t = 0; t < now.element_grain.size(); ++t) {
+            const int grain = now.element_grain[t];
             const auto corner = [&](int k) {
-                const int n = now.tetrahedra[4 * t + k];
+                const int n = now.elements[4 * t + k];
                 CHECK((n >= now.node_offsets[grain] && n < now.node_offsets[grain + 1]));
                 const double* r = &now.positions[3 * n];
                 return Vector { r[0], r[1], r[2] };

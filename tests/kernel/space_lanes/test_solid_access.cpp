@@ -3,6 +3,7 @@
 /// units, tension positive.
 #include "support/catch.hpp"
 
+#include <flexpm/kernel/measure/grain_stress.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 
 #include "support/solid_states.hpp"

@@ -4,10 +4,10 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/specimen_strain.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/contact_search.hpp>
@@ -197,7 +197,7 @@ TEST_CASE("What damage took is the sum over softened, cracked and erased points"
     const flexpm::Energies after = flexpm::energies(a);
     CHECK(after.softened == 0.0);
     double on_record = 0.0;
-    for (double energy : flexpm::take_snapshot(a).erased_crack_energy)
+    for (double energy : flexpm::take_snapshot(a).erased.crack_energy)
         on_record += energy;
     CHECK(after.damage == Approx(damage).epsilon(1e-12));
     CHECK(on_record == Approx(damage).epsilon(1e-12));
@@ -220,10 +220,10 @@ TEST_CASE("An erased bond is on record as erased and never cracks", "[erasure]")
     CHECK(s.contact == std::vector<std::int32_t> { 0 });
     CHECK(s.erased_contact == std::vector<std::int32_t> { 1 });
     CHECK(s.erased_grains == std::vector<std::int32_t> { 1, 2 });
-    CHECK(s.erased_crack_step == std::vector<std::int32_t> { 2000, 2000, 2000 });
-    CHECK(s.erased_crack_mode == std::vector<std::int32_t>(3, flexpm::erased_point));
-    CHECK(s.erased_crack_position[0] == Approx(place.x));
-    CHECK(s.erased_crack_position[1] == Approx(place.y).margin(1e-12));
+    CHECK(s.erased.crack_step == std::vector<std::int64_t> { 2000, 2000, 2000 });
+    CHECK(s.erased.crack_mode == std::vector<std::int32_t>(3, flexpm::erased_point));
+    CHECK(s.erased.crack_position[0] == Approx(place.x));
+    CHECK(s.erased.crack_position[1] == Approx(place.y).margin(1e-12));
     const double way =
         0.5 * 3000 * a.grains.velocity[a.grains.node(2, 0)];  // of its middle since then
     CHECK(s.erased_ends[0] - place.x == Approx(way).epsilon(1e-6));
@@ -236,7 +236,7 @@ TEST_CASE("Cracks of a bond that is erased later stay cracks", "[erasure]")
     REQUIRE(flexpm::count_cracks(a).tensile == 3);
     flexpm::erase(a, { {}, { 1 } }, 1.0);
     CHECK(flexpm::count_cracks(a).tensile == 3);
-    CHECK(flexpm::take_snapshot(a).erased_crack_mode
+    CHECK(flexpm::take_snapshot(a).erased.crack_mode
         == std::vector<std::int32_t>(3, flexpm::tensile_crack));
 }
 
@@ -248,7 +248,7 @@ TEST_CASE("To erase nothing, or once more, changes nothing", "[erasure]")
     const auto state = [&] {
         const auto s = flexpm::take_snapshot(a);
         return std::make_tuple(flexpm::energies(a).erased, flexpm::energies(a).damage,
-            s.erased_crack_step, s.erased_crack_mode, a.contacts.areas);
+            s.erased.crack_step, s.erased.crack_mode, a.contacts.areas);
     };
     const auto before = state();
     flexpm::erase(a, {}, 1.0);
@@ -290,10 +290,10 @@ TEST_CASE("Nothing knows of an erased grain", "[erasure]")
     CHECK(count.triangles == before.triangles - flexpm::triangles_of(a.grains, gone));
     CHECK(flexpm::count_contacts(a).between == a.contacts.count - 3);
     const auto s = flexpm::take_snapshot(a);
-    CHECK(std::count(s.triangle_grain.begin(), s.triangle_grain.end(), gone) == 0);
+    CHECK(std::count(s.element_grain.begin(), s.element_grain.end(), gone) == 0);
     CHECK(s.positions.size() == all.positions.size() - 2 * a.grains.nodes_of(gone));
     CHECK(s.contact.size() == all.contact.size() - 3);
-    CHECK(*std::max_element(s.triangles.begin(), s.triangles.end())
+    CHECK(*std::max_element(s.elements.begin(), s.elements.end())
         == static_cast<int>(s.positions.size() / 2) - 1);
     CHECK(flexpm::side_nodes(a, flexpm::top_side).size() < top);
     for (const GrainPair& pair : flexpm::near_pairs(a, 2.0 * size))

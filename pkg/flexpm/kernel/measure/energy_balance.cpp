@@ -7,6 +7,7 @@
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/measure/energy_sums.hpp>
+#include <flexpm/kernel/measure/face_sums.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>

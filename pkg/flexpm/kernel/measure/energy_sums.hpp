@@ -3,7 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/contacts.hpp>
-#include <flexpm/kernel/assembly/solid_state.hpp>
+#include <flexpm/kernel/assembly/grains.hpp>
 
 namespace flexpm {
 
@@ -12,7 +12,6 @@ double strain_energy(const Grains& grains);
 
 /// Stored in all contact points [J].
 double contact_energy(const Contacts& contacts);
-double contact_energy(const SolidState& s);
 
 /// Dissipated in all contact points [J].
 struct ContactLoss {
@@ -21,14 +20,11 @@ struct ContactLoss {
 };
 
 ContactLoss contact_loss(const Contacts& contacts);
-ContactLoss contact_loss(const FaceContacts& contacts);
 
 /// Dissipated by damage in points that have softened and not cracked [J].
 double softened_energy(const Contacts& contacts);
-double softened_energy(const FaceContacts& contacts);
 
 /// Sum of the magnitudes of all contact forces [N].
 double sum_of_forces(const Contacts& contacts);
-double sum_of_forces(const SolidState& s);
 
 }  // namespace flexpm

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Energies and forces of the faces between polyhedral grains, `lanes` at a time.
-#include <flexpm/kernel/measure/energy_sums.hpp>
+#include <flexpm/kernel/measure/face_sums.hpp>
 
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/core/lane_sum.hpp>

@@ -2,10 +2,14 @@
 #include <flexpm/kernel/measure/mean_stress.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/measure/grain_stress.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <vector>
 
 namespace flexpm {
 
@@ -13,53 +17,34 @@ namespace {
 
 /// Symmetric part of the sum of forces times places, and the volume that it is a stress of.
 struct Virial {
-    Tensor sum { 0.0, 0.0, 0.0 };  ///< [N m]
-    double volume = 0.0;           ///< [m^3]
+    SpaceTensor sum {};   ///< [N m]
+    double volume = 0.0;  ///< [m^3]
 
-    void add(Point force, Point place)
-    {
-        sum.xx += force.x * place.x;
-        sum.yy += force.y * place.y;
-        sum.xy += 0.5 * (force.x * place.y + force.y * place.x);
-    }
+    void add(Vector force, Vector place) { sum = sum_of(sum, 1.0, product_of(force, place)); }
 
-    void add(const Tensor& stress, double part)
+    void add(const SpaceTensor& stress, double part)
     {
-        sum.xx += part * stress.xx;
-        sum.yy += part * stress.yy;
-        sum.xy += part * stress.xy;
+        sum = sum_of(sum, part, stress);
         volume += part;
     }
 
-    Tensor over(double whole) const { return { sum.xx / whole, sum.yy / whole, sum.xy / whole }; }
+    SpaceTensor over(double v) const
+    {
+        return { sum.xx / v, sum.yy / v, sum.zz / v, sum.yz / v, sum.xz / v, sum.xy / v };
+    }
 };
 
-/// Triangles of a deformable grain, as deformed.
-void add_triangles(const Grains& grains, int grain, Virial& total)
-{
-    const PlaneStiffness c = stiffness_of(grains, grain);
-    for (int t = 0; t < triangles_of(grains, grain); ++t) {
-        const TriangleShape shape = shape_of(grains, grain, t);
-        const auto n = triangle_nodes(grains, grain, t);
-        const auto u = [&](int k) { return grains.displacement_at(grains.node(grain, n[k])); };
-        const Gradient h = displacement_gradient(shape, u(0), u(1), u(2));
-        const double ratio = (1.0 + h.xx) * (1.0 + h.yy) - h.xy * h.yx;
-        total.add(cauchy_stress(shape, c, u(0), u(1), u(2)), ratio * shape.volume);
-    }
-}
-
 /// Forces on a rigid grain, which its shape carries from node to node.
-void add_rigid(const Assembly& a, int grain, Virial& total)
+void add_rigid(const Grains& grains, int grain, Virial& total)
 {
-    const Point centre = a.grains.point_at(a.grains.centre(grain));
-    for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
-        const int node = a.grains.node(grain, n);
-        total.add(a.grains.force_at(node), a.grains.point_at(node) - centre);
+    const Vector centre = grains.position(grains.centre(grain));
+    for (int n = 0; n < grains.vertices_of(grain); ++n) {
+        const int node = grains.node(grain, n);
+        total.add(grains.vector(grains.force, node), grains.position(node) - centre);
     }
-    total.volume += a.volume_of(cell_section(a.grains, grain).area);
 }
 
-/// What contacts bear between the places of their two faces.
+/// Forces of contacts between the places of their two faces, and the volume of their overlaps.
 void add_contacts(const Assembly& a, Virial& total)
 {
     const Contacts& contacts = a.contacts;
@@ -68,12 +53,29 @@ void add_contacts(const Assembly& a, Virial& total)
         for (int side = 0; side < 2; ++side) {
             for (int corner = 0; corner < contacts.corners_of(c); ++corner) {
                 total.add(Point {} - contacts.force(c, side, corner),
-                    a.grains.point_at(contacts.node(c, side, corner)));
+                    a.grains.position(contacts.node(c, side, corner)));
             }
         }
         for (int p = 0; p < contacts.points_of(c); ++p) {
             const double gap = opening_of(contacts, c, p);
             total.volume += contacts.area(c, p) * std::min(gap, 0.0);
+        }
+    }
+}
+void add_contacts(const SolidState& s, Virial& total)
+{
+    const FaceContacts& c = s.contacts;
+    for (int contact = 0; contact < c.count; ++contact) {
+        const std::vector<FacePlace> places = places_of(s, contact);
+        const std::vector<Vector> forces = point_forces(s, contact);
+        for (int p = 0; p < c.points_of(contact); ++p) {
+            if (!(c.area(contact, p) > 0.0)) continue;
+            const Vector force = forces[p];
+            for (int k = 0; k < c.corners_of(contact); ++k)
+                total.add(c.share(contact, p, k) * force,
+                    s.grains.position(c.node(contact, 0, k))
+                        - s.grains.position(c.node(contact, 1, k)));
+            total.volume += c.area(contact, p) * std::min(places[p].opening, 0.0);
         }
     }
 }
@@ -87,61 +89,81 @@ double overlap(const Plate& plate)
     return sum;
 }
 
-/// Calls visit(force, place) with the net force on each node, or on the centre of each rigid grain,
-/// that is free to move.
-template <class Visit> void for_each_net_force(const Grains& grains, Visit visit)
+struct NetForce {
+    Vector force, place;
+};
+
+/// Net force on each node, or on the centre of each rigid grain, as far as it is free to move.
+std::vector<NetForce> net_forces(const Grains& grains)
 {
-    const auto free = [&](Point force, int node) {
-        if (grains.prescribed[grains.component(node, 0)]) force.x = 0.0;
-        if (grains.prescribed[grains.component(node, 1)]) force.y = 0.0;
-        visit(force, grains.point_at(node));
+    std::vector<NetForce> found;
+    const auto add = [&](Vector force, int node) {
+        const auto held = [&](int axis) { return grains.prescribed[grains.component(node, axis)]; };
+        if (held(0)) force.x = 0.0;
+        if (held(1)) force.y = 0.0;
+        if (grains.layout.dimension == 3 && held(2)) force.z = 0.0;
+        found.push_back({ force, grains.position(node) });
     };
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
         if (grains.is_rigid(g)) {
-            free(in_plane(resultant_on(grains, g).force), grains.centre(g));
+            add(resultant_on(grains, g).force, grains.centre(g));
             continue;
         }
         for (int n = 0; n < grains.nodes_of(g); ++n)
-            free(grains.force_at(grains.node(g, n)), grains.node(g, n));
+            add(grains.vector(grains.force, grains.node(g, n)), grains.node(g, n));
     }
+    return found;
+}
+
+/// Mean place of the nodes. The sum is divided in 2D, its terms in 3D: the last digits may differ.
+Vector middle_of(const Grains& grains, const std::vector<NetForce>& net)
+{
+    const double part = 1.0 / static_cast<double>(net.size());
+    const bool plane = grains.layout.dimension == 2;
+    Vector sum;
+    for (const NetForce& one : net)
+        sum = sum + (plane ? 1.0 : part) * one.place;
+    return plane ? part * sum : sum;
 }
 
 }  // namespace
 
-Balance balance(const Assembly& a)
+template <class State> Balance balance(const State& s)
 {
     Virial inside;
-    for (int g = 0; g < a.grains.count; ++g) {
-        if (a.grains.erased[g]) continue;
-        if (a.grains.is_rigid(g))
-            add_rigid(a, g, inside);
-        else
-            add_triangles(a.grains, g, inside);
+    for (int g = 0; g < s.grains.count; ++g) {
+        if (s.grains.erased[g]) continue;
+        for_each_element(
+            s, g, [&](const auto& element) { inside.add(element.stress, element.present_volume); });
+        if (!s.grains.is_rigid(g)) continue;
+        add_rigid(s.grains, g, inside);
+        if constexpr (std::is_same_v<State, Assembly>)
+            inside.volume += s.volume_of(cell_section(s.grains, g).area);
     }
-    add_contacts(a, inside);
+    add_contacts(s, inside);
 
     Balance found;
-    for (const Plate& p : a.plates) {
+    for (const Plate& p : s.plates) {
         inside.volume -= overlap(p);
-        if (!p.loaded || p.load == 0.0) continue;
+        if (!(p.loaded && p.load > 0.0)) continue;
         const double share = std::fabs(p.load - dot(p.normal, p.force)) / p.load;
         found.plate_share = std::max(found.plate_share, share);
     }
     if (!(inside.volume > 0.0)) return found;
-    Point middle;
-    int places = 0;
-    for_each_net_force(a.grains, [&](Point force, Point place) {
-        found.missing_force = found.missing_force + force;
-        middle = middle + place;
-        ++places;
-    });
+    const std::vector<NetForce> net = net_forces(s.grains);
+    const Vector middle = middle_of(s.grains, net);
     Virial outside = inside;
-    for_each_net_force(a.grains,
-        [&](Point force, Point place) { outside.add(force, place - (1.0 / places) * middle); });
+    for (const NetForce& one : net) {
+        found.missing_force = found.missing_force + one.force;
+        outside.add(one.force, one.place - middle);
+    }
     found.mean_stress = inside.over(inside.volume);
     found.outside_stress = outside.over(inside.volume);
     return found;
 }
+
+template Balance balance(const Assembly&);
+template Balance balance(const SolidState&);
 
 }  // namespace flexpm

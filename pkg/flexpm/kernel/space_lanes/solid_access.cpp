@@ -143,25 +143,4 @@ Vector node_velocity(const SolidState& s, int grain, int node)
         + cross(s.bodies[grain].spin, s.grains.position(node) - s.grains.position(centre));
 }
 
-SpaceTensor sum_of(const SpaceTensor& a, double factor, const SpaceTensor& b)
-{
-    return { a.xx + factor * b.xx, a.yy + factor * b.yy, a.zz + factor * b.zz, a.yz + factor * b.yz,
-        a.xz + factor * b.xz, a.xy + factor * b.xy };
-}
-
-SpaceTensor stress_by_forces(const SolidState& s, int grain, double volume)
-{
-    SpaceTensor total {};
-    const Vector centre = s.grains.position(s.grains.centre(grain));
-    for (int n = 0; n < s.grains.vertices_of(grain); ++n) {
-        const int node = s.grains.node(grain, n);
-        const Vector a = s.grains.position(node) - centre;
-        const Vector b = space_vector(s.grains.force, node);
-        total = sum_of(total, 1.0 / volume,
-            { a.x * b.x, a.y * b.y, a.z * b.z, 0.5 * (a.y * b.z + a.z * b.y),
-                0.5 * (a.x * b.z + a.z * b.x), 0.5 * (a.x * b.y + a.y * b.x) });
-    }
-    return total;
-}
-
 }  // namespace flexpm

@@ -5,7 +5,6 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/solid_state.hpp>
-#include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/space/face_frame.hpp>
 
 #include <vector>
@@ -67,48 +66,5 @@ Vector contact_force(const SolidState& s, int contact);
 
 /// Velocity of a node, of a rigid grain by its motion [m/s].
 Vector node_velocity(const SolidState& s, int grain, int node);
-
-/// Volume of a grain when bonded, and its mean Cauchy stress.
-struct GrainStress {
-    double volume = 0.0;    ///< [m^3]
-    SpaceTensor stress {};  ///< of a rigid grain by the forces on it, in balance [Pa]
-};
-
-/// The same, with visit(shape, nodes, stress) for each tetrahedron, of a rigid grain without
-/// stress.
-template <class Visit> GrainStress grain_stress(const SolidState& s, int grain, Visit visit);
-
-inline GrainStress grain_stress(const SolidState& s, int grain)
-{
-    return grain_stress(s, grain, [](auto&&...) {});
-}
-
-/// Sum of two tensors, the second times a factor.
-SpaceTensor sum_of(const SpaceTensor& a, double factor, const SpaceTensor& b);
-
-/// Mean stress of a rigid grain in balance, by the forces on its corners [Pa].
-SpaceTensor stress_by_forces(const SolidState& s, int grain, double volume);
-
-template <class Visit> GrainStress grain_stress(const SolidState& s, int grain, Visit visit)
-{
-    const Grains& grains = s.grains;
-    const int block = grains.block_of(grain);
-    const auto c =
-        load_rows<PlaneStiffness>(&grains.stiffness[block * row_count<PlaneStiffness> * lanes], 0);
-    GrainStress mean;
-    for_each_tetrahedron(s, block, [&](const TetrahedronShape& t, std::array<int, 4> nodes) {
-        SpaceTensor own {};
-        if (!grains.is_rigid(grain)) {
-            const auto way = [&](int k) { return space_vector(grains.displacement, nodes[k]); };
-            own = cauchy_stress(t, c, way(0), way(1), way(2), way(3));
-            mean.stress = sum_of(mean.stress, t.volume, own);
-        }
-        mean.volume += t.volume;
-        visit(t, nodes, own);
-    });
-    mean.stress = grains.is_rigid(grain) ? stress_by_forces(s, grain, mean.volume)
-                                         : sum_of({}, 1.0 / mean.volume, mean.stress);
-    return mean;
-}
 
 }  // namespace flexpm

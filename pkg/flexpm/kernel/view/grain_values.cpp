@@ -2,10 +2,7 @@
 #include <flexpm/kernel/view/grain_values.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/fem/triangle.hpp>
-#include <flexpm/kernel/geometry/polygon.hpp>
-#include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/measure/grain_stress.hpp>
 
 #include <algorithm>
 #include <array>
@@ -48,47 +45,12 @@ bool is_of_space(GrainValue what)
         || what == GrainValue::stress_xz;
 }
 
-double area_of(const Grains& grains, int grain)
-{
-    std::vector<Point> corners;
-    for (int n = 0; n < grains.vertices_of(grain); ++n)
-        corners.push_back(grains.reference_at(grains.node(grain, n)));
-    return polygon_shape(corners).area;
-}
-
 /// What fragments are measured by: area or volume.
-double size_of(const Assembly& a, int grain) { return area_of(a.grains, grain); }
+double size_of(const Assembly& a, int grain) { return cell_area(a.grains, grain); }
 double size_of(const SolidState& s, int grain) { return grain_stress(s, grain).volume; }
 
-Tensor stress_of_triangles(const Grains& grains, int grain)
+double stress_of(const SpaceTensor& t, GrainValue what)
 {
-    const PlaneStiffness c = stiffness_of(grains, grain);
-    Tensor sum {};
-    double volume = 0.0;
-    for (int t = 0; t < triangles_of(grains, grain); ++t) {
-        const TriangleShape shape = shape_of(grains, grain, t);
-        const auto n = triangle_nodes(grains, grain, t);
-        const auto u = [&](int k) { return grains.displacement_at(grains.node(grain, n[k])); };
-        const Tensor one = cauchy_stress(shape, c, u(0), u(1), u(2));
-        sum.xx += shape.volume * one.xx;
-        sum.yy += shape.volume * one.yy;
-        sum.xy += shape.volume * one.xy;
-        volume += shape.volume;
-    }
-    return { sum.xx / volume, sum.yy / volume, sum.xy / volume };
-}
-
-double stress_of(const Assembly& a, int grain, GrainValue what)
-{
-    const Tensor stress = a.grains.is_rigid(grain) ? stress_by_forces(a, grain)
-                                                   : stress_of_triangles(a.grains, grain);
-    if (what == GrainValue::stress_xx) return stress.xx;
-    return what == GrainValue::stress_yy ? stress.yy : stress.xy;
-}
-
-double stress_of(const SolidState& s, int grain, GrainValue what)
-{
-    const SpaceTensor t = grain_stress(s, grain).stress;
     switch (what) {
     case GrainValue::stress_xx:
         return t.xx;
@@ -114,18 +76,18 @@ double damage_of(const FaceContacts& contacts, int contact, int point)
     return law::damage(contacts.law_of(contact), state.max_opening, state.shear_damage);
 }
 
-Point displacement_of(const Assembly& a, int node) { return a.grains.displacement_at(node); }
-Vector displacement_of(const SolidState& s, int node)
-{
-    return space_vector(s.grains.displacement, node);
-}
-
 /// Calls visit(contact) for all bonds that are there.
 template <class List, class Visit> void for_each_bond(const List& contacts, Visit visit)
 {
     for (int c = 0; c < contacts.count; ++c) {
         if (is_bond(contacts, c)) visit(c);
     }
+}
+
+/// Displacement of the centre of a grain [m].
+double way_of(const Grains& grains, int grain)
+{
+    return grains.length(grains.vector(grains.displacement, grains.centre(grain)));
 }
 
 template <class State> std::vector<double> damages(const State& a)
@@ -188,43 +150,11 @@ template <class State> std::vector<double> fragments(const State& a)
 template <class State> double single_value(const State& a, int grain, GrainValue what)
 {
     if (what == GrainValue::mineral) return a.grains.material[grain];
-    if (what == GrainValue::displacement) return norm(displacement_of(a, a.grains.centre(grain)));
-    return stress_of(a, grain, what);
-}
-
-template <class State> std::vector<double> values_of(const State& a, GrainValue what)
-{
-    std::vector<double> values(a.grains.count);
-    if (what == GrainValue::damage) {
-        values = damages(a);
-    } else if (what == GrainValue::fragment) {
-        values = fragments(a);
-    } else {
-        for (int g = 0; g < a.grains.count; ++g)
-            values[g] = single_value(a, g, what);
-    }
-    for (int g = 0; g < a.grains.count; ++g) {
-        if (a.grains.erased[g]) values[g] = std::numeric_limits<double>::quiet_NaN();
-    }
-    return values;
+    if (what == GrainValue::displacement) return way_of(a.grains, grain);
+    return stress_of(grain_stress(a, grain).stress, what);
 }
 
 }  // namespace
-
-Tensor stress_by_forces(const Assembly& a, int grain)
-{
-    const Point centre = a.grains.point_at(a.grains.centre(grain));
-    const double volume = a.volume_of(area_of(a.grains, grain));
-    Tensor sum {};
-    for (int n = 0; n < a.grains.nodes_of(grain); ++n) {
-        const int node = a.grains.node(grain, n);
-        const Point r = a.grains.point_at(node) - centre, f = a.grains.force_at(node);
-        sum.xx += r.x * f.x / volume;
-        sum.yy += r.y * f.y / volume;
-        sum.xy += 0.5 * (r.x * f.y + r.y * f.x) / volume;
-    }
-    return sum;
-}
 
 std::optional<GrainValue> grain_value(const std::string& name, int dimensions)
 {
@@ -244,11 +174,25 @@ std::string scale_title(GrainValue what) { return description_of(what).title; }
 
 double scale_factor(GrainValue what) { return description_of(what).factor; }
 
-std::vector<double> grain_values(const Assembly& a, GrainValue what) { return values_of(a, what); }
-std::vector<double> grain_values(const SolidState& s, GrainValue what)
+template <class State> std::vector<double> grain_values(const State& a, GrainValue what)
 {
-    return values_of(s, what);
+    std::vector<double> values(a.grains.count);
+    if (what == GrainValue::damage) {
+        values = damages(a);
+    } else if (what == GrainValue::fragment) {
+        values = fragments(a);
+    } else {
+        for (int g = 0; g < a.grains.count; ++g)
+            values[g] = single_value(a, g, what);
+    }
+    for (int g = 0; g < a.grains.count; ++g) {
+        if (a.grains.erased[g]) values[g] = std::numeric_limits<double>::quiet_NaN();
+    }
+    return values;
 }
+
+template std::vector<double> grain_values(const Assembly&, GrainValue);
+template std::vector<double> grain_values(const SolidState&, GrainValue);
 
 Extent extent_of(const Grains& grains)
 {

@@ -19,7 +19,7 @@ enum class GrainValue {
     stress_xy,  ///< means over the grain [Pa]; of a rigid one by the forces on it
     stress_zz,
     stress_yz,
-    stress_xz,     ///< those of solids alone
+    stress_xz,     ///< in 3D alone
     displacement,  ///< of its centre since it was bonded [m]
     damage,        ///< mean over the points of its bonds [-]
     mineral,       ///< number in the material
@@ -40,13 +40,8 @@ std::string scale_title(GrainValue what);
 /// Values in the unit of scale_title() over those in SI units.
 double scale_factor(GrainValue what);
 
-/// Mean stress of a rigid grain, in balance under the forces on it: the sum of place times force
-/// over its volume [Pa].
-Tensor stress_by_forces(const Assembly& a, int grain);
-
-/// One value for each grain; nan for one that is erased.
-std::vector<double> grain_values(const Assembly& a, GrainValue what);
-std::vector<double> grain_values(const SolidState& s, GrainValue what);
+/// One value for each grain; nan for one that is erased. `State` is Assembly or SolidState.
+template <class State> std::vector<double> grain_values(const State& s, GrainValue what);
 
 /// Lower left and upper right corner of all grains that are there [m].
 struct Extent {

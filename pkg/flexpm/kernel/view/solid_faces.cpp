@@ -2,6 +2,7 @@
 #include <flexpm/kernel/view/solid_faces.hpp>
 
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
+#include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
+#include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/yade/bindings/array_view.hpp>
 #include <flexpm/yade/grains/AssemblyOwner.hpp>

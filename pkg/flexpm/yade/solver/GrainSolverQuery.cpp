@@ -127,12 +127,16 @@ Real GrainSolver::unbalanced()
 
 py::dict GrainSolver::balance()
 {
-	const auto now    = flexpm::balance(current());
-	const auto values = [](const flexpm::Tensor& t) { return py::make_tuple(t.xx, t.yy, t.xy); };
+	current();
+	const auto now   = onState([](const auto& state) { return flexpm::balance(state); });
+	const bool plane = grains().layout.dimension == 2;
+	const auto values
+	        = [&](const flexpm::SpaceTensor& t) { return plane ? py::make_tuple(t.xx, t.yy, t.xy) : py::make_tuple(t.xx, t.yy, t.zz, t.yz, t.xz, t.xy); };
+	const auto force = now.missing_force;
 	py::dict   d;
 	d["mean_stress"]    = values(now.mean_stress);
 	d["outside_stress"] = values(now.outside_stress);
-	d["missing_force"]  = py::make_tuple(now.missing_force.x, now.missing_force.y);
+	d["missing_force"]  = plane ? py::make_tuple(force.x, force.y) : py::make_tuple(force.x, force.y, force.z);
 	d["plate_share"]    = now.plate_share;
 	return d;
 }

@@ -52,7 +52,6 @@ public:
 	static py::dict snapshotOf(const flexpm::SolidState& state);
 	py::dict        counts();
 	py::dict        overlaps();
-	py::dict        balance();
 	Real            crossingSteps(Real diameter);
 
 	// clang-format off
@@ -84,7 +83,7 @@ public:
 			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
 		.def("elasticConstants", WithGrains<&SolidSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio of the unloaded grains between smooth ends, by their linear solution; they stay as they are.")
 		.def("clearPressure", WithGrains<&SolidSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side.")
-		.def("balance", WithGrains<&SolidSolver::balance>::call,
+		.def("balance", WithGrains<&GrainSolver::balance>::call,
 			"How far the specimen is in balance at the last step, by name: mean_stress and outside_stress [Pa], each (xx, yy, zz, yz, xz, xy), missing_force [N], plate_share, 0.")
 		.def("holdSide", WithGrains<&SolidSolver::holdSide>::call, (py::arg("side"), py::arg("x") = false, py::arg("y") = false, py::arg("z") = false),
 			"Hold the nodes of deformable grains on a side along the axes named, of rigid ones the centres behind it across it and the middles of their faces along it. Sides: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig takes the ends: plane strain of a box.")

@@ -2,11 +2,10 @@
 /// @file  What Python asks of a solid: counts, overlaps, arrays.
 #include <flexpm/yade/solver/SolidSolver.hpp>
 
-#include <flexpm/kernel/measure/solid_balance.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/measure/solid_overlaps.hpp>
-#include <flexpm/kernel/view/solid_snapshot.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
+#include <flexpm/kernel/view/snapshot.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -58,18 +57,6 @@ py::dict SolidSolver::overlaps()
 	return d;
 }
 
-py::dict SolidSolver::balance()
-{
-	const auto now    = flexpm::balance(state);
-	const auto values = [](const flexpm::SpaceTensor& t) { return py::make_tuple(t.xx, t.yy, t.zz, t.yz, t.xz, t.xy); };
-	py::dict   d;
-	d["mean_stress"]    = values(now.mean_stress);
-	d["outside_stress"] = values(now.outside_stress);
-	d["missing_force"]  = py::make_tuple(now.missing_force.x, now.missing_force.y, now.missing_force.z);
-	d["plate_share"]    = now.plate_share;
-	return d;
-}
-
 Real SolidSolver::crossingSteps(Real diameter) { return flexpm::ball_crossing_steps(state, diameter, Omega::instance().getScene()->dt); }
 
 py::dict SolidSolver::snapshot() { return snapshotOf(state); }
@@ -85,9 +72,9 @@ py::dict SolidSolver::snapshotOf(const flexpm::SolidState& state)
 	d["node_offsets"]       = given(s.node_offsets, 0);
 	d["centres"]            = given(s.centres, 3);
 	d["volumes"]            = given(s.volumes, 0);
-	d["tetrahedra"]         = given(s.tetrahedra, 4);
-	d["tetrahedron_grain"]  = given(s.tetrahedron_grain, 0);
-	d["tetrahedron_stress"] = given(s.tetrahedron_stress, 6);
+	d["tetrahedra"]         = given(s.elements, 4);
+	d["tetrahedron_grain"]  = given(s.element_grain, 0);
+	d["tetrahedron_stress"] = given(s.element_stress, 6);
 	d["surface"]            = given(s.surface, 3);
 	d["surface_grain"]      = given(s.surface_grain, 0);
 	d["surface_side"]       = given(s.surface_side, 0);

@@ -16,10 +16,10 @@ inline boost::python::dict snapshot_dict(const flexpm::Assembly& assembly)
 	d["reference"]             = copied(s.reference, 2);
 	d["velocities"]            = copied(s.velocities, 2);
 	d["forces"]                = copied(s.forces, 2);
-	d["triangles"]             = copied(s.triangles, 3);
-	d["triangle_grain"]        = copied(s.triangle_grain, 0);
-	d["triangle_particle"]     = copied(s.triangle_particle, 0);
-	d["triangle_stress"]       = copied(s.triangle_stress, 3);
+	d["triangles"]             = copied(s.elements, 3);
+	d["triangle_grain"]        = copied(s.element_grain, 0);
+	d["triangle_particle"]     = copied(s.element_particle, 0);
+	d["triangle_stress"]       = copied(s.element_stress, 3);
 	d["contact"]               = copied(s.contact, 0);
 	d["contact_grains"]        = copied(s.contact_grains, 2);
 	d["contact_ends"]          = copied(s.contact_ends, 2).attr("reshape")(-1, 2, 2);
@@ -29,7 +29,7 @@ inline boost::python::dict snapshot_dict(const flexpm::Assembly& assembly)
 	d["point_slip"]            = copied(s.point_slip, 0);
 	d["point_damage"]          = copied(s.point_damage, 0);
 	d["point_traction"]        = copied(s.point_traction, 2);
-	d["crack_step"]            = copied(s.crack_step, 0);
+	d["crack_step"]            = copied(std::vector<std::int32_t>(s.crack_step.begin(), s.crack_step.end()), 0);
 	d["crack_mode"]            = copied(s.crack_mode, 0);
 	d["crack_position"]        = copied(s.crack_position, 2);
 	d["crack_energy"]          = copied(s.crack_energy, 0);
@@ -37,10 +37,10 @@ inline boost::python::dict snapshot_dict(const flexpm::Assembly& assembly)
 	d["erased_grains"]         = copied(s.erased_grains, 2);
 	d["erased_ends"]           = copied(s.erased_ends, 2).attr("reshape")(-1, 2, 2);
 	d["erased_point_bond"]     = copied(s.erased_point_bond, 0);
-	d["erased_crack_step"]     = copied(s.erased_crack_step, 0);
-	d["erased_crack_mode"]     = copied(s.erased_crack_mode, 0);
-	d["erased_crack_energy"]   = copied(s.erased_crack_energy, 0);
-	d["erased_crack_position"] = copied(s.erased_crack_position, 2);
+	d["erased_crack_step"]     = copied(std::vector<std::int32_t>(s.erased.crack_step.begin(), s.erased.crack_step.end()), 0);
+	d["erased_crack_mode"]     = copied(s.erased.crack_mode, 0);
+	d["erased_crack_energy"]   = copied(s.erased.crack_energy, 0);
+	d["erased_crack_position"] = copied(s.erased.crack_position, 2);
 	return d;
 }
 
