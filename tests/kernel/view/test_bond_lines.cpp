@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Lines of a contact between two square grains.
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/view/bond_forces.hpp>
 #include <flexpm/kernel/view/bond_lines.hpp>
 
 #include "support/catch.hpp"

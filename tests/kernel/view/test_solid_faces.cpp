@@ -23,7 +23,7 @@ SolidState sample(bool rigid = false)
 }
 
 /// Upper corner of the box.
-Vector corner_of(const SolidState& s) { return box_around(s)[1]; }
+Vector corner_of(const SolidState& s) { return extent_of(s.grains).high; }
 
 /// Area vector of a polygon.
 Vector area_of(const Polygon& polygon)

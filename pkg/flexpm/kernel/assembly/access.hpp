@@ -52,9 +52,9 @@ inline GrainNode grain_node(const Grains& grains, int node)
 }
 
 /// Law of a contact between two grains of the material of `grain`.
-inline const LawParameters& own_law(const Assembly& a, int grain)
+template <class State> const LawParameters& own_law(const State& s, int grain)
 {
-    return a.contacts.laws[a.grains.law_index(grain, grain)];
+    return s.contacts.laws[s.grains.law_index(grain, grain)];
 }
 
 /// Mean of value(grain) over all grains. Equal values give exactly that value.
@@ -172,18 +172,25 @@ inline int contact_with_id(const Assembly& a, int id)
     return found != order.end() && ids[*found] == id ? *found : -1;
 }
 
+/// Area of a contact when bonded [m^2]. `List` is Contacts or FaceContacts.
+template <class List> double contact_area(const List& contacts, int contact)
+{
+    double area = 0.0;
+    for (int p = 0; p < contacts.points_of(contact); ++p)
+        area += contacts.area(contact, p);
+    return area;
+}
+
 /// Stiffnesses of a bond as a whole while it is intact [N/m].
 struct BondStiffness {
     double normal = 0.0;
     double shear = 0.0;
 };
 
-inline BondStiffness bond_stiffness(const Contacts& contacts, int contact)
+template <class List> BondStiffness bond_stiffness(const List& contacts, int contact)
 {
     const LawParameters& law = contacts.law_of(contact);
-    double area = 0.0;
-    for (int p = 0; p < contacts.points_of(contact); ++p)
-        area += contacts.area(contact, p);
+    const double area = contact_area(contacts, contact);
     return { law.normal_stiffness * area, law.shear_stiffness * area };
 }
 

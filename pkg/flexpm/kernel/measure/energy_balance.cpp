@@ -52,25 +52,25 @@ double friction_of(const Plate& plate)
 }
 
 /// Stored in grains and contacts [J].
-double stored_energy(const Assembly& a)
+template <class State> double stored_energy(const State& s)
 {
-    return strain_energy(a.grains) + contact_energy(a.contacts);
+    if constexpr (is_plane<State>)
+        return strain_energy(s.grains) + contact_energy(s.contacts);
+    else
+        return strain_energy(s) + contact_energy(s);
 }
-double stored_energy(const SolidState& s) { return strain_energy(s) + contact_energy(s); }
 
-/// Power that damping takes from the turn of a rigid grain, without the factor of damping [W].
-double power_of_turn(const Assembly& a, int grain, Vector moment)
+/// Spin of a rigid grain beyond the one that damping leaves alone; 0 of one whose spin is given.
+template <class State> Vector free_spin(const State& s, int grain)
 {
-    const int slot = a.grains.slot[grain];
-    if (a.grains.spin_prescribed[slot]) return 0.0;
-    return std::fabs(moment.z * (a.grains.spin[slot] - a.undamped().spin[slot]));
-}
-double power_of_turn(const SolidState& s, int grain, Vector moment)
-{
-    if (s.bodies[grain].spin_held) return 0.0;
-    const Vector spin = s.bodies[grain].spin - spin_in(s.undamped(), grain);
-    return std::fabs(moment.x * spin.x) + std::fabs(moment.y * spin.y)
-        + std::fabs(moment.z * spin.z);
+    if constexpr (is_plane<State>) {
+        const int slot = s.grains.slot[grain];
+        if (s.grains.spin_prescribed[slot]) return {};
+        return { 0.0, 0.0, s.grains.spin[slot] - s.undamped().spin[slot] };
+    } else {
+        if (s.bodies[grain].spin_held) return {};
+        return s.bodies[grain].spin - spin_in(s.undamped(), grain);
+    }
 }
 
 /// Call add(force, velocity) for each component that damping acts on, of loaded plates and of node
@@ -119,21 +119,13 @@ double largest_unbalanced(const BondedState& s, const std::vector<int>& grain_of
 }
 
 /// Grain of each facet of the boundary.
-const std::vector<int>& grain_of_facets(const Assembly& a) { return a.facets.grain; }
-const std::vector<int>& grain_of_facets(const SolidState& s) { return s.surface.grain; }
-
-/// Number of contacts that have not been erased, and the sum of their forces [N].
-struct ContactForces {
-    std::int64_t contacts;
-    double sum;
-};
-ContactForces contact_forces(const Assembly& a)
+template <class State> const std::vector<int>& grain_of_facets(const State& s)
 {
-    const auto& erased = a.contacts.erased;
-    return { a.contacts.count - std::count(erased.begin(), erased.end(), 1),
-        sum_of_forces(a.contacts) };
+    if constexpr (is_plane<State>)
+        return s.facets.grain;
+    else
+        return s.surface.grain;
 }
-ContactForces contact_forces(const SolidState& s) { return { s.contacts.count, sum_of_forces(s) }; }
 
 /// Largest unbalanced force over the mean of `contacts` contact forces [-].
 double ratio_of_forces(double largest, double contacts, double sum_of_forces)
@@ -177,7 +169,9 @@ template <class State> double damping_power(const State& s, double damping)
         if (grains.is_rigid(g)) {
             const Resultant on = resultant_on(grains, g);
             add_vector(on.force, grains.centre(g));
-            total += power_of_turn(s, g, on.moment);
+            const Vector spin = free_spin(s, g);
+            total += std::fabs(on.moment.x * spin.x) + std::fabs(on.moment.y * spin.y)
+                + std::fabs(on.moment.z * spin.z);
             continue;
         }
         for (int n = 0; n < grains.nodes_of(g); ++n)
@@ -306,9 +300,15 @@ void reset_energy_balance(Assembly& a)
 
 template <class State> double unbalanced_ratio(const State& s)
 {
-    const ContactForces forces = contact_forces(s);
-    return ratio_of_forces(largest_unbalanced(s, grain_of_facets(s)),
-        static_cast<double>(forces.contacts), forces.sum);
+    double contacts = s.contacts.count, sum = 0.0;
+    if constexpr (is_plane<State>) {
+        const auto& erased = s.contacts.erased;
+        contacts -= static_cast<double>(std::count(erased.begin(), erased.end(), 1));
+        sum = sum_of_forces(s.contacts);
+    } else {
+        sum = sum_of_forces(s);
+    }
+    return ratio_of_forces(largest_unbalanced(s, grain_of_facets(s)), contacts, sum);
 }
 
 template <class State> CrackCount count_cracks(const State& s)

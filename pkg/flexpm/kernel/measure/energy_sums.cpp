@@ -6,8 +6,8 @@
 #include <flexpm/kernel/assembly/triangle_rows.hpp>
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
-#include <flexpm/kernel/core/simd.hpp>
 #include <flexpm/kernel/core/lane_sum.hpp>
+#include <flexpm/kernel/core/simd.hpp>
 
 #include <cmath>
 #include <cstdint>

@@ -62,7 +62,8 @@ void add_contacts(const Assembly& a, Virial& total)
         }
     }
 }
-void add_contacts(const SolidState& s, Virial& total)
+
+void add_faces(const SolidState& s, Virial& total)
 {
     const FaceContacts& c = s.contacts;
     for (int contact = 0; contact < c.count; ++contact) {
@@ -141,7 +142,10 @@ template <class State> Balance balance(const State& s)
         if constexpr (std::is_same_v<State, Assembly>)
             inside.volume += s.volume_of(cell_section(s.grains, g).area);
     }
-    add_contacts(s, inside);
+    if constexpr (std::is_same_v<State, Assembly>)
+        add_contacts(s, inside);
+    else
+        add_faces(s, inside);
 
     Balance found;
     for (const Plate& p : s.plates) {

@@ -2,8 +2,8 @@
 #include <flexpm/kernel/measure/overlaps.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/plane_lanes/bond_faces.hpp>
 #include <flexpm/kernel/geometry/polygon.hpp>
+#include <flexpm/kernel/plane_lanes/bond_faces.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -34,7 +34,8 @@ Body body_of(const SolidState& s, int grain)
     for_each_tetrahedron(
         s, s.grains.block_of(grain), [&](const TetrahedronShape&, std::array<int, 4> nodes) {
             const Vector first = s.grains.position(nodes[1]);
-            const Vector twice = cross(s.grains.position(nodes[2]) - first, s.grains.position(nodes[3]) - first);
+            const Vector twice =
+                cross(s.grains.position(nodes[2]) - first, s.grains.position(nodes[3]) - first);
             const double size = norm(twice);
             if (!(size > 0.0)) return;
             b.normals.push_back((1.0 / size) * twice);

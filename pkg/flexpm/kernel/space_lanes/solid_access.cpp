@@ -58,14 +58,6 @@ Vector area_vector(const SolidState& s, int triangle)
     return 0.5 * cross(r[1] - r[0], r[2] - r[0]);
 }
 
-double contact_area(const FaceContacts& contacts, int contact)
-{
-    double area = 0.0;
-    for (int p = 0; p < contacts.points_of(contact); ++p)
-        area += contacts.area(contact, p);
-    return area;
-}
-
 std::vector<FacePlace> places_of(const SolidState& s, int contact)
 {
     const FaceContacts& c = s.contacts;
@@ -102,13 +94,6 @@ double mean_opening(const SolidState& s, int contact)
     for (std::size_t p = 0; p < places.size(); ++p)
         sum += s.contacts.area(contact, static_cast<int>(p)) * places[p].opening;
     return sum / contact_area(s.contacts, contact);
-}
-
-BondStiffness bond_stiffness(const FaceContacts& contacts, int contact)
-{
-    const LawParameters& law = contacts.law_of(contact);
-    const double area = contact_area(contacts, contact);
-    return { law.normal_stiffness * area, law.shear_stiffness * area };
 }
 
 std::vector<Vector> point_forces(const SolidState& s, int contact)

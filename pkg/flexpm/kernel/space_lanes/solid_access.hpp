@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Reading the state of a solid: access.hpp in space, with geometry and forces of its
-/// contacts, and what acts on its grains. SI units, tension positive.
+/// @file  Reading the state of a 3D specimen: geometry, tractions and forces of the faces between
+/// its grains, and velocities of nodes. SI units, tension positive.
 #pragma once
 
 #include <flexpm/kernel/assembly/access.hpp>
@@ -10,12 +10,6 @@
 #include <vector>
 
 namespace flexpm {
-
-/// Law of a contact between two grains of the material of `grain`.
-inline const LawParameters& own_law(const SolidState& s, int grain)
-{
-    return s.contacts.laws[s.grains.law_index(grain, grain)];
-}
 
 /// Corners of a contact's middle face, with displacements that are `factor` times larger [m].
 std::vector<Vector> middle_face(const SolidState& s, int contact, double factor = 1.0);
@@ -41,9 +35,6 @@ Vector contact_middle(const SolidState& s, int contact);
 /// Area of a surface triangle at the reference along its normal, outwards [m^2].
 Vector area_vector(const SolidState& s, int triangle);
 
-/// Area of a contact when bonded [m^2].
-double contact_area(const FaceContacts& contacts, int contact);
-
 /// Where the points of a contact are, along its frame; of a face without area 0.
 std::vector<FacePlace> places_of(const SolidState& s, int contact);
 
@@ -53,9 +44,6 @@ FaceTraction traction_of(const SolidState& s, int contact, int point);
 
 /// Mean opening of its points, by their areas [m].
 double mean_opening(const SolidState& s, int contact);
-
-/// Stiffnesses of a bond as a whole while it is intact [N/m].
-BondStiffness bond_stiffness(const FaceContacts& contacts, int contact);
 
 /// Forces of the points of a contact on its second grain: areas times tractions [N]; 0 if its face
 /// has no area.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Motion of rigid polyhedral grains: rigid_grain.hpp with a quaternion. Their nodes follow
-/// the centre and the turn; nodes and contacts are those of deformable grains.
+/// @file  Motion of rigid polyhedral grains, whose turn is a quaternion. Their nodes follow the
+/// centre and the turn; nodes and contacts are those of deformable grains.
 #pragma once
 
 #include <flexpm/kernel/core/central_difference.hpp>

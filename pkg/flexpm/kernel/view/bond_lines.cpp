@@ -3,7 +3,6 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/fem/edge_points.hpp>
-#include <flexpm/kernel/view/grain_values.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -45,20 +44,6 @@ Line branch_line(const Assembly& a, int contact, double factor)
         return a.grains.point_at(a.grains.centre(grain), factor);
     };
     return { centre(0), centre(1) };
-}
-
-double normal_force(const Assembly& a, int contact)
-{
-    // the force on the second grain points back to the first in tension
-    return -dot(contact_force(a.contacts, contact), a.contacts.normal(contact));
-}
-
-double largest_contact_force(const Assembly& a)
-{
-    double largest = 0.0;
-    for (int c = 0; c < a.contacts.count; ++c)
-        largest = std::max(largest, norm(contact_force(a.contacts, c)));
-    return largest;
 }
 
 }  // namespace flexpm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Lines by which a window shows contacts: cracked parts of their edges, and their forces.
+/// @file  Lines by which a window shows contacts: cracked parts of their edges, and branches.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -17,11 +17,5 @@ Line point_line(const Assembly& a, int contact, int point, double factor);
 
 /// Between the centres of both grains, likewise.
 Line branch_line(const Assembly& a, int contact, double factor);
-
-/// Force of a contact along its normal [N], tension positive.
-double normal_force(const Assembly& a, int contact);
-
-/// Largest force of all contacts that are there [N].
-double largest_contact_force(const Assembly& a);
 
 }  // namespace flexpm

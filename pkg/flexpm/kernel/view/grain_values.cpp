@@ -8,6 +8,7 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 
 namespace flexpm {
 
@@ -46,8 +47,13 @@ bool is_of_space(GrainValue what)
 }
 
 /// What fragments are measured by: area or volume.
-double size_of(const Assembly& a, int grain) { return cell_area(a.grains, grain); }
-double size_of(const SolidState& s, int grain) { return grain_stress(s, grain).volume; }
+template <class State> double size_of(const State& s, int grain)
+{
+    if constexpr (std::is_same_v<State, Assembly>)
+        return cell_area(s.grains, grain);
+    else
+        return grain_stress(s, grain).volume;
+}
 
 double stress_of(const SpaceTensor& t, GrainValue what)
 {
@@ -197,13 +203,16 @@ template std::vector<double> grain_values(const SolidState&, GrainValue);
 Extent extent_of(const Grains& grains)
 {
     constexpr double far = std::numeric_limits<double>::max();
-    Extent found { { far, far }, { -far, -far } };
+    const double depth = grains.layout.dimension == 2 ? 0.0 : far;
+    Extent found { { far, far, depth }, { -far, -far, -depth } };
     for (int g = 0; g < grains.count; ++g) {
         if (grains.erased[g]) continue;
         for (int n = 0; n < grains.vertices_of(g); ++n) {
-            const Point p = grains.point_at(grains.node(g, n));
-            found.low = { std::min(found.low.x, p.x), std::min(found.low.y, p.y) };
-            found.high = { std::max(found.high.x, p.x), std::max(found.high.y, p.y) };
+            const Vector p = grains.position(grains.node(g, n));
+            found.low = { std::min(found.low.x, p.x), std::min(found.low.y, p.y),
+                std::min(found.low.z, p.z) };
+            found.high = { std::max(found.high.x, p.x), std::max(found.high.y, p.y),
+                std::max(found.high.z, p.z) };
         }
     }
     return found;

@@ -43,10 +43,10 @@ double scale_factor(GrainValue what);
 /// One value for each grain; nan for one that is erased. `State` is Assembly or SolidState.
 template <class State> std::vector<double> grain_values(const State& s, GrainValue what);
 
-/// Lower left and upper right corner of all grains that are there [m].
+/// Lowest and highest corner of a box around all grains that are there [m].
 struct Extent {
-    Point low;
-    Point high;
+    Vector low;
+    Vector high;
 };
 Extent extent_of(const Grains& grains);
 

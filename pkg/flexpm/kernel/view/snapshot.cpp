@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
 namespace flexpm {
 
@@ -41,13 +42,17 @@ int number_in(const Grains& grains, int grain, int node)
     return (node - grains.block_nodes[grains.block_of(grain)]) / grains.layout.node_stride;
 }
 
-Vector velocity_of(const Assembly& a, int, int node) { return a.grains.velocity_at(node); }
-Vector velocity_of(const SolidState& s, int grain, int node)
+/// Velocity of a node, of a rigid grain by its motion [m/s].
+template <class State> Vector velocity_of(const State& s, int grain, int node)
 {
-    return node_velocity(s, grain, node);
+    if constexpr (std::is_same_v<State, Assembly>)
+        return s.grains.velocity_at(node);
+    else
+        return node_velocity(s, grain, node);
 }
 
-template <class State> void add_nodes(const State& s, int grain, SnapshotRows& to)
+/// Add nodes and elements of a grain, whose first node has the number `first` among all.
+template <class State> GrainStress add_grain(const State& s, int grain, int first, SnapshotRows& to)
 {
     const Grains& grains = s.grains;
     for (int n = 0; n < grains.nodes_of(grain); ++n) {
@@ -57,13 +62,6 @@ template <class State> void add_nodes(const State& s, int grain, SnapshotRows& t
         push_vector(grains, to.velocities, velocity_of(s, grain, node));
         push_vector(grains, to.forces, grains.vector(grains.force, node));
     }
-}
-
-/// Add the elements of a grain, whose first node has the number `first` among all.
-template <class State>
-GrainStress add_elements(const State& s, int grain, int first, SnapshotRows& to)
-{
-    const Grains& grains = s.grains;
     int added = 0;
     const GrainStress mean = grain_stress(s, grain, [&](const auto& element) {
         for (int node : element.nodes)
@@ -89,19 +87,17 @@ void add_fan(const Grains& grains, int grain, int first, const SpaceTensor& stre
     }
 }
 
-void add_grain(const Assembly& a, int grain, Snapshot& to)
+void add_polygon(const Assembly& a, int grain, Snapshot& to)
 {
     const int first = size_of(to.positions, 2);
-    add_nodes(a, grain, to);
-    const GrainStress mean = add_elements(a, grain, first, to);
+    const GrainStress mean = add_grain(a, grain, first, to);
     if (a.grains.is_rigid(grain)) add_fan(a.grains, grain, first, mean.stress, to);
     to.element_particle.resize(to.element_grain.size(), grain);
 }
 
-void add_grain(const SolidState& s, int grain, SolidSnapshot& to)
+void add_polyhedron(const SolidState& s, int grain, SolidSnapshot& to)
 {
-    add_nodes(s, grain, to);
-    const GrainStress mean = add_elements(s, grain, to.node_offsets.back(), to);
+    const GrainStress mean = add_grain(s, grain, to.node_offsets.back(), to);
     to.node_offsets.push_back(size_of(to.positions, 3));
     push_tensor(s.grains, to.grain_stress, mean.stress);
     push(to.centres, s.grains.position(s.grains.centre(grain)));
@@ -158,7 +154,7 @@ void add_erased(const Assembly& a, int contact, Snapshot& s)
     }
 }
 
-void add_contact(const SolidState& s, int contact, SolidSnapshot& to)
+void add_face(const SolidState& s, int contact, SolidSnapshot& to)
 {
     const FaceContacts& c = s.contacts;
     const GrainPair pair = c.pairs[contact];
@@ -217,7 +213,7 @@ Snapshot take_snapshot(const Assembly& a)
 {
     Snapshot s;
     for (int g = 0; g < a.grains.count; ++g) {
-        if (!a.grains.erased[g]) add_grain(a, g, s);
+        if (!a.grains.erased[g]) add_polygon(a, g, s);
     }
     for (int c = 0; c < a.contacts.count; ++c) {
         if (a.contacts.erased[c]) {
@@ -234,10 +230,10 @@ SolidSnapshot take_snapshot(const SolidState& s)
     SolidSnapshot to;
     to.node_offsets = to.corner_offsets = to.point_offsets = { 0 };
     for (int g = 0; g < s.grains.count; ++g)
-        add_grain(s, g, to);
+        add_polyhedron(s, g, to);
     add_surface(s, to);
     for (int c = 0; c < s.contacts.count; ++c)
-        add_contact(s, c, to);
+        add_face(s, c, to);
     return to;
 }
 

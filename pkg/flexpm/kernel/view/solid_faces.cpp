@@ -196,30 +196,4 @@ std::vector<Segment> point_rim(
     return found;
 }
 
-double normal_force(const SolidState& s, int contact)
-{
-    // the force on the second grain points back to the first in tension
-    return -dot(contact_force(s, contact), normal_of(middle_face(s, contact)));
-}
-
-double largest_contact_force(const SolidState& s)
-{
-    double largest = 0.0;
-    for (int c = 0; c < s.contacts.count; ++c)
-        largest = std::max(largest, norm(contact_force(s, c)));
-    return largest;
-}
-
-std::array<Vector, 2> box_around(const SolidState& s)
-{
-    constexpr double far = std::numeric_limits<double>::max();
-    Vector low { far, far, far }, high { -far, -far, -far };
-    for_each_node(s, [&](int grain, int number) {
-        const Vector p = s.grains.position(s.grains.node(grain, number));
-        low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
-        high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
-    });
-    return { low, high };
-}
-
 }  // namespace flexpm

@@ -62,13 +62,4 @@ std::vector<bool> surface_nodes(const SolidState& s);
 std::vector<Segment> point_rim(const SolidState& s, int contact, int point, double factor,
     const std::vector<bool>& on_surface);
 
-/// Force of a contact along its normal [N], tension positive; 0 if its face has no area.
-double normal_force(const SolidState& s, int contact);
-
-/// Largest force of all contacts [N].
-double largest_contact_force(const SolidState& s);
-
-/// Corners of a box around all grains [m].
-std::array<Vector, 2> box_around(const SolidState& s);
-
 }  // namespace flexpm

@@ -130,9 +130,9 @@ namespace {
 	/// The scale of a solid faces the viewer, beside the box around all grains as the window shows it.
 	flexpm::Extent turnToViewer(const flexpm::SolidState& state)
 	{
-		const auto     box    = flexpm::box_around(state);
+		const auto     box    = flexpm::extent_of(state.grains);
 		const Window&  window = shown.window;
-		const Vector3r low = toYade(box[0]), half = .5 * (toYade(box[1]) - low), middle = low + half;
+		const Vector3r low = toYade(box.low), half = .5 * (toYade(box.high) - low), middle = low + half;
 		const Real     wide = half.dot(window.right.cwiseAbs()), high = half.dot(window.up.cwiseAbs());
 		const double   axes[16] = { window.right[0], window.right[1], window.right[2], 0., window.up[0], window.up[1], window.up[2], 0.,
 			                    window.front[0], window.front[1], window.front[2], 0., middle[0],    middle[1],    middle[2],    1. };

@@ -5,6 +5,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
+#include <flexpm/kernel/view/bond_forces.hpp>
 #include <flexpm/kernel/view/bond_lines.hpp>
 #include <flexpm/kernel/view/solid_faces.hpp>
 #include <flexpm/yade/grains/AssemblyOwner.hpp>
@@ -73,13 +74,9 @@ namespace {
 		return { centre(s.contacts.pairs[place][0]), centre(s.contacts.pairs[place][1]) };
 	}
 
-	/// Along the normal [N], tension positive.
-	Real normalForce(const flexpm::Assembly& a, int place) { return flexpm::normal_force(a, place); }
-	Real normalForce(const flexpm::SolidState& s, int place) { return flexpm::normal_force(s, place); }
-
 	template <class State> void drawForce(const State& state, int place)
 	{
-		const Real force = normalForce(state, place);
+		const Real force = flexpm::normal_force(state, place);
 		if (force == 0. || shown.largest == 0.) return;
 		if (force < 0.)
 			glColor3d(0., 0., 0.);

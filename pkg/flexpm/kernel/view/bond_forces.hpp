@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Forces of contacts as a window shows them, in 2D and in 3D. `State` is Assembly or
+/// SolidState. SI units.
+#pragma once
+
+#include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
+
+namespace flexpm {
+
+/// Force of a contact along its normal [N], tension positive; 0 if its face has no area.
+template <class State> double normal_force(const State& s, int contact);
+
+/// Largest force of all contacts that are there [N].
+template <class State> double largest_contact_force(const State& s);
+
+}  // namespace flexpm
