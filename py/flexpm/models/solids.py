@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from ..results.solids.state import SolidSnapshot
 
 
-def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.SolidSolver:
+def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.GrainSolver:
     """The solver of a solid, at rest and without masses.
 
     Raises:
@@ -37,7 +37,7 @@ def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.
     require_model(f"build: model for a {specimen.kind}", model, SOLID_MODELS, solid=True)
     minerals = _minerals(specimen, chosen, model)
     pairs = [] if minerals is None else pair_materials(chosen, model)
-    solver = wrapper.SolidSolver()
+    solver: wrapper.GrainSolver = wrapper.SolidSolver()
     try:
         solver.assembleSolid(
             specimen.cells,
@@ -56,7 +56,7 @@ def snapshot_of(found: Table, source: str, minerals: IntArray | None = None) -> 
     """A state of a solid.
 
     Args:
-        found: Its arrays, as `SolidSolver.snapshot` gives them.
+        found: Its arrays, as `GrainSolver.snapshot` gives them.
         minerals: Index of each grain's mineral, or None if all grains are alike.
         source: What the stress of a tetrahedron is: its own or its grain's.
     """

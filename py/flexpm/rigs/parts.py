@@ -167,12 +167,8 @@ class HeldNodes(RigPart):
         else:
             still = isinstance(spin, int | float) and spin == 0.0
             about = require_vector("move: spin", (0.0, 0.0, 0.0) if still else spin, "rad/s", axes)
-        solver = self.solver
         try:
-            if isinstance(solver, wrapper.SolidSolver):
-                solver.moveNodeSet(self.number, (x, y, z), about)
-            else:
-                solver.moveNodeSet(self.number, (x, y, about[2]))
+            self.solver.moveNodeSet(self.number, (x, y, z), about)
         except ValueError as error:
             raise InputError(f"move: {error}") from None
 

@@ -36,8 +36,9 @@ struct OwnedContact : OwnedAssembly {
 	int place = -1;
 };
 
-/// Where a node is, by its offset, or a vector of it in YADE's space [m].
-inline Vector3r toYade(flexpm::Vector v) { return Vector3r(v.x, v.y, v.z); }
+/// Vectors of YADE and of the kernel.
+inline Vector3r       toYade(flexpm::Vector v) { return Vector3r(v.x, v.y, v.z); }
+inline flexpm::Vector fromYade(const Vector3r& v) { return { v[0], v[1], v[2] }; }
 
 /// The first grains that the scene's engines own, if any.
 OwnedAssembly findAssembly(const Scene& scene);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/TestFrame.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
-#include <flexpm/yade/solver/SolidSolver.hpp>
 #include <flexpm/yade/solver/snapshot_dict.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
@@ -28,8 +27,7 @@ SolidPartFrame::~SolidPartFrame() = default;
 
 flexpm::TestFrame TestFrame::frame(const flexpm::Assembly&) const
 {
-	throw std::invalid_argument("AxialRecorder.frame = TestFrame, must be a RectangleFrame, DiscFrame or PartFrame, or an EndFrame, SolidDiscFrame or "
-	                            "SolidPartFrame of a solid");
+	throw std::invalid_argument("AxialRecorder.frame = TestFrame, must be a RectangleFrame, an EndFrame of a solid, a DiscFrame or a PartFrame");
 }
 
 flexpm::TestScales TestFrame::scales(const flexpm::Assembly& assembly, Real) const
@@ -103,9 +101,12 @@ flexpm::TestFrame DiscFrame::frame(const flexpm::Assembly& assembly) const { ret
 
 flexpm::TestScales DiscFrame::scales(const flexpm::Assembly& assembly, Real dt) const { return flexpm::disc_scales(assembly, diameter, dt); }
 
-flexpm::PartGeometry PartFrame::parts() const
+flexpm::PartGeometry PartFrame::parts() const { return geometry({ direction[0], direction[1] }, { 0., 0., direction[2] }); }
+
+flexpm::PartGeometry PartFrame::solidParts() const
 {
-	return { driven, holding, { direction[0], direction[1] }, area, length, drivenSets, backSets, holdingSets, { 0., 0., direction[2] } };
+	const flexpm::Vector along = fromYade(direction);
+	return turns ? geometry({}, along) : geometry(along, {});
 }
 
 py::dict PartFrame::elasticState(vector<int> pressed, vector<Real> pressures, Real way, py::object load) const
@@ -139,7 +140,7 @@ namespace {
 	flexpm::SolidState& solidOf(GrainSolver& solver)
 	{
 		if (auto* state = solver.solid()) return *state;
-		throw std::invalid_argument("AxialRecorder.frame = one of a solid, must be a RectangleFrame, DiscFrame or PartFrame for grains of the plane");
+		throw std::invalid_argument("AxialRecorder.frame = EndFrame, must be a RectangleFrame, DiscFrame or PartFrame for grains of the plane");
 	}
 
 } // namespace
@@ -170,25 +171,33 @@ vector<Real> EndFrame::values(GrainSolver& solver, Real, Real) const
 	return { flexpm::side_pressures(solidOf(solver)).largest };
 }
 
-flexpm::AxialObservation SolidDiscFrame::observed(GrainSolver& solver) const
+flexpm::AxialObservation DiscFrame::observed(GrainSolver& solver) const
 {
-	const auto& state = solidOf(solver);
-	return flexpm::observe(state, flexpm::solid_disc_frame(state, diameter, depth));
+	const auto* state = solver.solid();
+	return state ? flexpm::observe(*state, flexpm::solid_disc_frame(*state, diameter, depth)) : TestFrame::observed(solver);
 }
 
-flexpm::TestScales SolidDiscFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_disc_scales(solidOf(solver), diameter, depth, dt); }
-
-flexpm::AxialObservation SolidPartFrame::observed(GrainSolver& solver) const
+flexpm::TestScales DiscFrame::scalesOf(GrainSolver& solver, Real dt) const
 {
-	const auto& state = solidOf(solver);
-	return flexpm::observe(state, flexpm::part_frame(state, parts()));
+	const auto* state = solver.solid();
+	return state ? flexpm::solid_disc_scales(*state, diameter, depth, dt) : TestFrame::scalesOf(solver, dt);
 }
 
-flexpm::TestScales SolidPartFrame::scalesOf(GrainSolver& solver, Real dt) const { return flexpm::solid_part_scales(solidOf(solver), parts(), strength, dt); }
-
-std::optional<TestFrame::Measure> SolidPartFrame::measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const
+flexpm::AxialObservation PartFrame::observed(GrainSolver& solver) const
 {
-	if (column == "load") return Measure { flexpm::part_load(solid, parts()), flexpm::part_load_rate(solid, parts(), velocity) };
+	const auto* state = solver.solid();
+	return state ? flexpm::observe(*state, flexpm::part_frame(*state, solidParts())) : TestFrame::observed(solver);
+}
+
+flexpm::TestScales PartFrame::scalesOf(GrainSolver& solver, Real dt) const
+{
+	const auto* state = solver.solid();
+	return state ? flexpm::solid_part_scales(*state, solidParts(), strength, dt) : TestFrame::scalesOf(solver, dt);
+}
+
+std::optional<TestFrame::Measure> PartFrame::measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const
+{
+	if (column == "load") return Measure { flexpm::part_load(solid, solidParts()), flexpm::part_load_rate(solid, solidParts(), velocity) };
 	if (column != "cmod") return {};
 	const flexpm::Mouth mouth { middle, reach };
 	return Measure { flexpm::mouth_opening(solid, mouth), flexpm::mouth_opening(solid, mouth, velocity) };
@@ -224,7 +233,7 @@ namespace {
 		for (const flexpm::NodeSet& s : found.state.node_sets)
 			append(sets, s.force, s.displacement, s.moment, s.angle);
 		py::dict d;
-		d["snapshot"]  = SolidSolver::snapshotOf(found.state);
+		d["snapshot"]  = GrainSolver::snapshotOf(found.state);
 		d["plates"]    = plates;
 		d["node_sets"] = sets;
 		d["way"]       = found.way;
@@ -234,12 +243,12 @@ namespace {
 
 } // namespace
 
-py::dict SolidPartFrame::elasticState(vector<int> floating) const
+py::dict PartFrame::solidState(vector<int> floating) const
 {
-	return dictOf(flexpm::elastic_part_state(unloaded(floating), parts(), Omega::instance().getScene()->dt));
+	return dictOf(flexpm::elastic_part_state(unloaded(floating), solidParts(), Omega::instance().getScene()->dt));
 }
 
-py::dict SolidPartFrame::pressedState(vector<int> pressed, vector<Real> pressures) const
+py::dict PartFrame::pressedState(vector<int> pressed, vector<Real> pressures) const
 {
 	if (pressed.size() != pressures.size())
 		flexpm::refuse("pressures", Real(pressures.size()), "", "must be one for each plate that is pressed, " + std::to_string(pressed.size()));
@@ -247,17 +256,17 @@ py::dict SolidPartFrame::pressedState(vector<int> pressed, vector<Real> pressure
 	std::vector<flexpm::PlatePressure> asked;
 	for (std::size_t i = 0; i < pressed.size(); ++i)
 		asked.push_back({ pressed[i], pressures[i] });
-	return dictOf(flexpm::pressed_part_state(state, parts(), asked));
+	return dictOf(flexpm::pressed_part_state(state, solidParts(), asked));
 }
 
-vector<string> SolidPartFrame::columns() const
+vector<string> PartFrame::columns() const
 {
 	vector<string> names { "load", "displacement" };
 	if (reach > 0) names.push_back("cmod");
 	return names;
 }
 
-vector<Real> SolidPartFrame::values(GrainSolver& solver, Real stress, Real strain) const
+vector<Real> PartFrame::values(GrainSolver& solver, Real stress, Real strain) const
 {
 	vector<Real> now { stress * area, strain * length };
 	if (reach > 0) now.push_back(flexpm::mouth_opening(solidOf(solver), { middle, reach }));

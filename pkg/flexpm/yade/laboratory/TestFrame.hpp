@@ -69,17 +69,20 @@ REGISTER_SAVED(RectangleFrame);
 class DiscFrame : public TestFrame {
 public:
 	~DiscFrame() override;
-	flexpm::TestFrame   frame(const flexpm::Assembly& assembly) const override;
-	flexpm::TestScales  scales(const flexpm::Assembly& assembly, Real dt) const override;
-	boost::python::dict elasticState(bool plates, int pieces, boost::python::object pressure, Real way, boost::python::object load) const;
+	flexpm::TestFrame        frame(const flexpm::Assembly& assembly) const override;
+	flexpm::TestScales       scales(const flexpm::Assembly& assembly, Real dt) const override;
+	flexpm::AxialObservation observed(GrainSolver& solver) const override;
+	flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const override;
+	boost::python::dict      elasticState(bool plates, int pieces, boost::python::object pressure, Real way, boost::python::object load) const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(DiscFrame, TestFrame,
-		"A disc between a lower and an upper plate, the first two of :yref:`GrainSolver`.",
+		"A disc between a lower and an upper plate, the first two of :yref:`GrainSolver`; in 3D its axis is y, and its plates are those of :yref:`GrainSolver.holdDisc`.",
 		((Real, diameter, 0.,, "Of the disc [m]."))
+		((Real, depth, 0.,, "Of the disc in 3D, along y [m]."))
 		, /* ctor */
 		, .def("elasticState", &DiscFrame::elasticState, (boost::python::arg("plates"), boost::python::arg("pieces"), boost::python::arg("pressure"), boost::python::arg("way"), boost::python::arg("load")),
-			"As RectangleFrame.elasticState, between two plates and without a pressure.")
+			"As RectangleFrame.elasticState, between two plates and without a pressure; in 2D.")
 	);
 	// clang-format on
 };
@@ -88,12 +91,17 @@ REGISTER_SAVED(DiscFrame);
 class PartFrame : public TestFrame {
 public:
 	~PartFrame() override;
-	flexpm::TestFrame      frame(const flexpm::Assembly& assembly) const override;
-	flexpm::TestScales     scales(const flexpm::Assembly& assembly, Real dt) const override;
-	vector<string>         columns() const override { return { "load", "displacement" }; }
-	vector<Real>           values(GrainSolver&, Real stress, Real strain) const override { return { stress * area, strain * length }; }
-	std::optional<Measure> measure(const string& column, const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const override;
-	boost::python::dict    elasticState(vector<int> pressed, vector<Real> pressures, Real way, boost::python::object load) const;
+	flexpm::TestFrame        frame(const flexpm::Assembly& assembly) const override;
+	flexpm::TestScales       scales(const flexpm::Assembly& assembly, Real dt) const override;
+	flexpm::AxialObservation observed(GrainSolver& solver) const override;
+	flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const override;
+	vector<string>           columns() const override;
+	vector<Real>             values(GrainSolver& solver, Real stress, Real strain) const override;
+	std::optional<Measure>   measure(const string& column, const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const override;
+	std::optional<Measure>   measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const override;
+	boost::python::dict      elasticState(vector<int> pressed, vector<Real> pressures, Real way, boost::python::object load) const;
+	boost::python::dict      solidState(vector<int> floating) const;
+	boost::python::dict      pressedState(vector<int> pressed, vector<Real> pressures) const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PartFrame, TestFrame,
@@ -103,19 +111,31 @@ public:
 		((vector<int>, drivenSets,,, "Node sets that load it [-]."))
 		((vector<int>, backSets,,, "Those that turn the other way [-]."))
 		((vector<int>, holdingSets,,, "Node sets that hold it against a direction [-]."))
-		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven parts load, a unit vector; z = 1: node sets turn, and the load is the sum of their moments [N m], the displacement their angle [rad] [-]."))
+		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven parts load, a unit vector; in 2D z = 1: node sets turn, and the load is the sum of their moments [N m], the displacement their angle [rad] [-]."))
+		((bool, turns, false,, "In 3D: node sets turn about the direction."))
 		((Real, area, 0.,, "Load over the record's stress [m2]."))
 		((Real, length, 0.,, "Displacement over the record's strain [m]."))
 		((Real, strength, 0.,, "Stress that the test may reach, roughly [Pa]."))
+		((Real, middle, 0.,, "In 3D: x of the middle of the bottom, where a notch opens [m]."))
+		((Real, reach, 0.,, "In 3D: distance from there to either side, of the lines whose parting is the column cmod [m]; 0: there is none."))
 		((vector<Real>, loadingScales,,, "Scales as the loading found the specimen, in the order of AxialRecorder.scales(); empty before it. Those of a broken one would be others."))
 		, /* ctor */
 		, .def("elasticState", &PartFrame::elasticState, (boost::python::arg("pressed"), boost::python::arg("pressures"), boost::python::arg("way"), boost::python::arg("load")),
-			"Where the scene's specimen would come to rest, if no contact broke further: with pressures [Pa] on the plates that are pressed, beside those that act now, and a way [m] or a load [N] (None: the way alone counts) of what is driven; of sets that turn an angle [rad] or a moment [N m]. The scene stays as it is. Returns the state as GrainSolver.snapshot() has it, forces and displacements of plates and node sets, way, load, the number of solutions, and the points that stick beyond their friction.")
+			"Where the scene's specimen would come to rest, if no contact broke further: with pressures [Pa] on the plates that are pressed, beside those that act now, and a way [m] or a load [N] (None: the way alone counts) of what is driven; of sets that turn an angle [rad] or a moment [N m]. The scene stays as it is. Returns the state as GrainSolver.snapshot() has it, forces and displacements of plates and node sets, way, load, the number of solutions, and the points that stick beyond their friction. In 2D.")
+		.def("solidState", &PartFrame::solidState, (boost::python::arg("floating")),
+			"In 3D: where the linear solution takes the scene's specimen, which no step has moved, for a way or angle of what is driven that is so small that all is linear. floating: plates that are free to move along their normals. Returns the state as GrainSolver.snapshot() has it, forces and displacements of plates, those of node sets with moments and angles, way and load.")
+		.def("pressedState", &PartFrame::pressedState, (boost::python::arg("pressed"), boost::python::arg("pressures")),
+			"The same under pressures on plates [Pa], where what is driven stays; the way is the part of them that acts [-].")
 	);
 	// clang-format on
 
 private:
 	flexpm::PartGeometry parts() const;
+	flexpm::PartGeometry solidParts() const;
+	flexpm::PartGeometry geometry(flexpm::Vector along, flexpm::Vector turn) const
+	{
+		return { driven, holding, along, area, length, drivenSets, backSets, holdingSets, turn };
+	}
 };
 REGISTER_SAVED(PartFrame);
 
@@ -141,53 +161,19 @@ private:
 };
 REGISTER_SAVED(EndFrame);
 
-class SolidDiscFrame : public TestFrame {
+class SolidDiscFrame : public DiscFrame {
 public:
 	~SolidDiscFrame() override;
-	flexpm::AxialObservation observed(GrainSolver& solver) const override;
-	flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const override;
 
-	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(SolidDiscFrame, TestFrame,
-		"A disc of space, whose axis is y, between the plates of :yref:`SolidSolver.holdDisc`.",
-		((Real, diameter, 0.,, "Of the disc [m]."))
-		((Real, depth, 0.,, "Of the disc, along y [m]."))
-	);
-	// clang-format on
+	YADE_CLASS_BASE_DOC(SolidDiscFrame, DiscFrame, "The name that :yref:`DiscFrame` of a solid has until version 0.4.");
 };
 REGISTER_SAVED(SolidDiscFrame);
 
 class SolidPartFrame : public PartFrame {
 public:
 	~SolidPartFrame() override;
-	flexpm::AxialObservation observed(GrainSolver& solver) const override;
-	flexpm::TestScales       scalesOf(GrainSolver& solver, Real dt) const override;
-	std::optional<Measure>   measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const override;
-	vector<string>           columns() const override;
-	vector<Real>             values(GrainSolver& solver, Real stress, Real strain) const override;
-	boost::python::dict      elasticState(vector<int> floating) const;
-	boost::python::dict      pressedState(vector<int> pressed, vector<Real> pressures) const;
 
-	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SolidPartFrame, PartFrame,
-		"The same of a solid, and lines and patches that :yref:`SolidSolver.layLine` and layPatch have laid.",
-		((bool, turns, false,, "Node sets turn about the direction: the load is the sum of their moments [N m], the displacement their angle [rad]."))
-		((Real, middle, 0.,, "x of the middle of the bottom, where a notch opens [m]."))
-		((Real, reach, 0.,, "Distance from there to either side, of the lines whose parting is the column cmod [m]; 0: there is none."))
-		, /* ctor */
-		, .def("elasticState", &SolidPartFrame::elasticState, (boost::python::arg("floating")),
-			"Where the linear solution takes the scene's solid, which no step has moved, for a way or angle of what is driven that is so small that all is linear. floating: plates that are free to move along their normals. Returns the state as SolidSolver.snapshot() has it, forces and displacements of plates, those of node sets with moments and angles, way and load.")
-		.def("pressedState", &SolidPartFrame::pressedState, (boost::python::arg("pressed"), boost::python::arg("pressures")),
-			"The same under pressures on plates [Pa], where what is driven stays; the way is the part of them that acts [-].")
-	);
-	// clang-format on
-
-private:
-	flexpm::PartGeometry parts() const
-	{
-		const flexpm::Vector along { direction[0], direction[1], direction[2] }, none;
-		return { driven, holding, turns ? none : along, area, length, drivenSets, backSets, holdingSets, turns ? along : none };
-	}
+	YADE_CLASS_BASE_DOC(SolidPartFrame, PartFrame, "The name that :yref:`PartFrame` of a solid has until version 0.4.");
 };
 REGISTER_SAVED(SolidPartFrame);
 

@@ -4,6 +4,9 @@
 
 #include <flexpm/kernel/assembly/state_check.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/assembly/solid_plan.hpp>
+#include <flexpm/kernel/parts/solid_sets.hpp>
+#include <flexpm/kernel/step/solid_step.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 #include <flexpm/kernel/topology/loose_grains.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
@@ -29,7 +32,7 @@ shared_ptr<GrainSolver> GrainSolver::ofScene(const Scene& scene)
 void GrainSolver::postLoad(GrainSolver&)
 {
 	flexpm::check_state(assembly);
-	if (assembly.grains.count > 0) flexpm::prepare_step(assembly);
+	if (hasGrains()) onState([](auto& state) { flexpm::prepare_step(state); });
 }
 
 void GrainSolver::preSave(GrainSolver&) { current(); }
@@ -41,6 +44,17 @@ void GrainSolver::takeStep()
 	auto options  = stepOptions();
 	options.outer = std::exchange(outer, nullptr);
 	flexpm::step(assembly, options);
+}
+
+void GrainSolver::takeSolidStep()
+{
+	try {
+		flexpm::step(space, stepOptions());
+	} catch (const std::runtime_error&) { // of faces that have turned over: the record up to here is good
+		diverged = true;
+		throw;
+	}
+	flexpm::sum_node_sets(space, scene->dt);
 }
 
 flexpm::StepOptions GrainSolver::stepOptions() const
@@ -56,12 +70,21 @@ flexpm::StepOptions GrainSolver::stepOptions() const
 void GrainSolver::action()
 {
 	requireReady();
-	if (assembly.step % checkPeriod == 0) requireOwnScene();
-	takeStep();
-	if (assembly.step % mirrorPeriod == 0) mirrorStates();
-	if (assembly.step % touchPeriod == 0) changeContacts();
-	if (assembly.step % checkPeriod == 0) flexpm::find_loose(assembly);
-	if (assembly.step % checkPeriod == 0) check();
+	const auto due = [this](int period) { return stepsDone() % period == 0; };
+	if (due(checkPeriod)) requireOwnScene();
+	if (solid()) {
+		if (due(checkPeriod)) flexpm::find_loose(space);
+		if (due(checkPeriod) || destroyedContacts() != seenDestroyed) removeErased();
+		takeSolidStep();
+	} else {
+		takeStep();
+	}
+	if (due(mirrorPeriod)) mirrorStates();
+	if (!solid()) {
+		if (due(touchPeriod)) changeContacts();
+		if (due(checkPeriod)) flexpm::find_loose(assembly);
+	}
+	if (due(checkPeriod)) check();
 	if (scene->trackEnergy && measured()) trackEnergies();
 	mirrorAtStop();
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The engine that owns the packed arrays of the deformable grains and steps them, paper Sec. 2.
+/// @file  The engine that owns the packed arrays of the grains, in 2D or 3D, and steps them, paper Sec. 2.
 #pragma once
 
 #include <flexpm/kernel/forces/outer_forces.hpp>
 #include <flexpm/kernel/assembly/solid_state.hpp>
+#include <flexpm/kernel/space/polyhedra.hpp>
+#include <flexpm/kernel/space/solid.hpp>
 #include <flexpm/kernel/step/step.hpp>
 #include <flexpm/kernel/topology/contact_search.hpp>
 #include <flexpm/kernel/topology/erasure.hpp>
@@ -17,29 +19,19 @@ namespace yade {
 
 namespace py = boost::python;
 
-/// A method for Python that asks first whether there are grains of the plane: `call` is the method behind requireAssembled().
-template <auto method> struct AfterAssembly;
-template <class C, class R, class... A, R (C::*method)(A...)> struct AfterAssembly<method> {
+/// A method for Python that asks first what grains there are: `call` is the method behind `require`.
+template <auto require, auto method> struct After;
+template <class C, class R, class... A, void (C::*require)() const, R (C::*method)(A...)> struct After<require, method> {
 	static R call(C& self, A... a)
 	{
-		self.requireAssembled();
+		(self.*require)();
 		return (self.*method)(a...);
 	}
 };
-template <class C, class R, class... A, R (C::*method)(A...) const> struct AfterAssembly<method> {
+template <class C, class R, class... A, void (C::*require)() const, R (C::*method)(A...) const> struct After<require, method> {
 	static R call(const C& self, A... a)
 	{
-		self.requireAssembled();
-		return (self.*method)(a...);
-	}
-};
-
-/// The same for a method that grains of space have, too.
-template <auto method> struct WithGrains;
-template <class C, class R, class... A, R (C::*method)(A...)> struct WithGrains<method> {
-	static R call(C& self, A... a)
-	{
-		self.requireGrains();
+		(self.*require)();
 		return (self.*method)(a...);
 	}
 };
@@ -54,19 +46,26 @@ public:
 	void preSave(GrainSolver&);
 
 	flexpm::Assembly* assembled() override { return assembly.grains.count > 0 ? &assembly : nullptr; }
-	bool              holds(int place) const override;
-	virtual bool      hasGrains() const { return assembly.grains.count > 0; }
-	virtual long      stepsDone() const { return assembly.step; }
-	/// @throws std::runtime_error  unless there are grains of the plane, or any; all that Python calls goes through one of them
-	void requireAssembled() const;
+	flexpm::SolidState* solid() override { return space.grains.count > 0 ? &space : nullptr; }
+	bool                holds(int place) const override;
+	/// Components of a vector of the grains; 0 without grains.
+	int  dimension() const { return hasGrains() ? grains().layout.dimension : 0; }
+	bool hasGrains() const { return grains().count > 0; }
+	/// The part of the state that both dimensions have.
+	flexpm::BondedState&       state() { return solid() ? static_cast<flexpm::BondedState&>(space) : assembly; }
+	const flexpm::BondedState& state() const { return const_cast<GrainSolver*>(this)->state(); }
+	long                       stepsDone() const { return state().step; }
+	/// @throws std::runtime_error  unless there are grains of 2D, of 3D, or any; all that Python calls goes through one of them
+	void requirePlane() const;
+	void requireSolid() const;
 	void requireGrains() const;
-	/// What `call` says of the grains, of the plane or of space.
+	/// Result of `call` with the state, of 2D or of 3D.
 	template <class Call> auto onState(Call call)
 	{
 		if (flexpm::SolidState* state = solid()) return call(*state);
 		return call(assembly);
 	}
-	flexpm::Grains&       grains() { return solid() ? solid()->grains : assembly.grains; }
+	flexpm::Grains&       grains() { return state().grains; }
 	const flexpm::Grains& grains() const { return const_cast<GrainSolver*>(this)->grains(); }
 
 	/// The arrays for who looks at them: without all that scripts have erased until now.
@@ -88,6 +87,7 @@ public:
 	bool measured() const;
 
 	void       assemble(const flexpm_bindings::AssemblyInput& input, py::list materials, py::list pairs, py::list joints);
+	void       assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list materials, py::list pairs, vector<int> minerals, bool rigid);
 	void       addToScene();
 	void       scaleMasses();
 	Real       useRealMasses();
@@ -100,16 +100,26 @@ public:
 	int        findSidePlate(int side, bool bonded, Real friction, Real strip, bool seated);
 	int        findPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip, bool seated);
 	int        findJawPlate(Vector3r place, Vector3r centre, Real radius, Real angle, Real friction, Real strip);
+	void       holdEnds(bool bonded, Real friction);
+	void       holdBottom(bool plate);
+	void       holdDisc(Real jawRadius);
+	int        layLine(int side, Real x, Real z, Real width, bool pinned);
+	int        findLine(int side, Real x, Real z, Real width, bool pinned);
+	int        layPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip, bool seated);
+	int        findPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip, bool seated);
+	int        layJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip);
+	int        findJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip);
+	void       freePlate(int plate);
 	void       setMachine(int plate, Real stiffness);
 	py::tuple  gaugePoints(Vector3r first, Vector3r second);
 	py::tuple  sectionNodes(Real place, Vector3r direction, Real width);
 	void       fixTangential(int plate);
 	py::tuple  nodePlaces(bool bonded);
-	int        addNodeSet(vector<int> nodes, bool x, bool y);
+	int        addNodeSet(vector<int> nodes, bool x, bool y, bool z);
 	void       turnNodeSet(int set, py::object about);
-	void       moveNodeSet(int set, Vector3r velocity);
+	void       moveNodeSet(int set, Vector3r velocity, Vector3r spin);
 	py::list   nodeSets();
-	void       holdSide(int side, bool x, bool y);
+	void       holdSide(int side, bool x, bool y, bool z);
 	int        addWall(Vector3r position, Vector3r normal, Real friction);
 	Vector3r   gravity() const;
 	void       setGravity(Vector3r acceleration);
@@ -117,25 +127,29 @@ public:
 	py::tuple  elasticConstants();
 	py::dict   energies();
 	py::dict   snapshot();
-	py::tuple  cracks();
-	py::tuple  wallForces(vector<int> grains);
-	py::dict   parting();
-	py::dict   counts();
-	py::object sideNodes(int side);
-	py::dict   overlaps(Real smallestPart);
-	Real       unbalanced();
-	Real       crossingSteps(Real diameter);
-	py::dict   balance();
-	void       clearPressure(int side);
+	/// That of any state in 3D.
+	static py::dict snapshotOf(const flexpm::SolidState& state);
+	py::tuple       cracks();
+	py::tuple       wallForces(vector<int> grains);
+	py::dict        parting();
+	py::dict        counts();
+	py::object      sideNodes(int side);
+	py::dict        overlaps(Real smallestPart);
+	Real            unbalanced();
+	Real            crossingSteps(Real diameter);
+	py::dict        balance();
+	void            clearPressure(int side);
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GrainSolver, GlobalEngine,
-		"Advances all deformable grains by one step: contact points, triangles, nodes [Azevedo2022]_, Eqs. 1-19. Forces are "
+		"Advances all grains by one step, in 2D or 3D: contact points, triangles or tetrahedra, nodes [Azevedo2022]_, Eqs. 1-19. Forces are "
 		"gathered per grain in a fixed order, so results do not depend on the number of threads. It mirrors the centres to "
 		":yref:`State.pos` and :yref:`State.vel`; no :yref:`InteractionLoop` is needed. Bonds and grains may be erased (``O.interactions.erase``, "
 		"``O.bodies.erase``): they are gone at the next step or the next call that asks for something, whichever is first. A step does not see "
-		"what a script still has a handle of; calls that ask do, and so does the check every checkPeriod steps.",
-		((flexpm::Assembly, assembly,, Attr::hidden, "The packed arrays: the one home of the grains' state."))
+		"what a script still has a handle of; calls that ask do, and so does the check every checkPeriod steps. "
+		"A solid keeps its grains and bonds: a step refuses a scene from which a script has erased any.",
+		((flexpm::Assembly, assembly,, Attr::hidden, "The packed arrays of grains in 2D: the one home of their state."))
+		((flexpm::SolidState, space,, Attr::hidden, "The packed arrays of grains in 3D: the one home of their state."))
 		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
 		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force [-]."))
 		((int, checkPeriod, 100,, "Steps between two checks for numbers that are not finite, contacts that are over, and what scripts have erased or replaced [-]."))
@@ -155,69 +169,85 @@ public:
 		, /* ctor */
 		, .def("assemble", &GrainSolver::assemble, (py::arg("input"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("joints") = py::list()),
 			"Build the bonded, unloaded grains, once; flexpm.build calls it. materials: those of the minerals; pairs: of contacts of minerals i and j, at i times their number plus j, all that of i without them; joints: of the joints' contacts.")
-		.def("addToScene", WithGrains<&GrainSolver::addToScene>::call, "Make a body of each grain and an interaction of each bond.")
-		.def("scaleMasses", AfterAssembly<&GrainSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
-		.def("useRealMasses", AfterAssembly<&GrainSolver::useRealMasses>::call, "Use the real masses; returns the stable time step [s].")
-		.def("addSidePlates", AfterAssembly<&GrainSolver::addSidePlates>::call, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0., py::arg("seated") = false),
+		.def("assembleSolid", &GrainSolver::assembleSolid, (py::arg("cells"), py::arg("outline"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("minerals") = vector<int>(), py::arg("rigid") = false),
+			"Build the bonded, unloaded grains, once; flexpm.build calls it. materials: those of the minerals; pairs: of contacts of minerals i and j, at i times their number plus j; minerals: that of each cell.")
+		.def("addToScene", After<&GrainSolver::requireGrains, &GrainSolver::addToScene>::call, "Make a body of each grain and an interaction of each bond.")
+		.def("scaleMasses", After<&GrainSolver::requireGrains, &GrainSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
+		.def("useRealMasses", After<&GrainSolver::requireGrains, &GrainSolver::useRealMasses>::call, "Use the real masses; returns the stable time step [s].")
+		.def("addSidePlates", After<&GrainSolver::requirePlane, &GrainSolver::addSidePlates>::call, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0., py::arg("seated") = false),
 			"Lay rigid plates on a side of the outline, side by side, with a layer of a stiffness per area before them (0: none) [Pa/m], seated ones to turn about the middle of their faces, and return their numbers. Scale the masses afterwards.")
-		.def("addTouchingPlate", AfterAssembly<&GrainSolver::addTouchingPlate>::call, (py::arg("normal"), py::arg("friction") = 0.),
+		.def("addTouchingPlate", After<&GrainSolver::requirePlane, &GrainSolver::addTouchingPlate>::call, (py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate against the outermost point, its normal pointing into the specimen, and return its number. Scale the masses afterwards.")
-		.def("addPatchPlate", AfterAssembly<&GrainSolver::addPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
+		.def("addPatchPlate", After<&GrainSolver::requirePlane, &GrainSolver::addPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
 			"Lay a rigid plate of a length [m] against the part of the outline around a place [m], its normal pointing into the specimen (zero: that of the outline there), and return its number; strip and seated as above. Scale the masses afterwards.")
-		.def("addJawPlate", AfterAssembly<&GrainSolver::addJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
+		.def("addJawPlate", After<&GrainSolver::requirePlane, &GrainSolver::addJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
 			"Lay a rigid arc of a radius [m] around the rim of a disc of this centre [m], over an angle of the disc [rad] about a place on the rim [m], and return its number. Scale the masses afterwards.")
-		.def("findSidePlate", AfterAssembly<&GrainSolver::findSidePlate>::call, (py::arg("side"), py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0., py::arg("seated") = false),
+		.def("findSidePlate", After<&GrainSolver::requirePlane, &GrainSolver::findSidePlate>::call, (py::arg("side"), py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0., py::arg("seated") = false),
 			"Number of the one plate that addSidePlates has laid along a side with the same arguments, -1 if there is none.")
-		.def("findPatchPlate", AfterAssembly<&GrainSolver::findPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
+		.def("findPatchPlate", After<&GrainSolver::requirePlane, &GrainSolver::findPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
 			"Number of the plate that addPatchPlate has laid with the same arguments, -1 if there is none.")
-		.def("findJawPlate", AfterAssembly<&GrainSolver::findJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
+		.def("findJawPlate", After<&GrainSolver::requirePlane, &GrainSolver::findJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
 			"Number of the plate that addJawPlate has laid with the same arguments, -1 if there is none.")
-		.def("setMachine", AfterAssembly<&GrainSolver::setMachine>::call, (py::arg("plate"), py::arg("stiffness")),
+		.def("holdEnds", After<&GrainSolver::requireSolid, &GrainSolver::holdEnds>::call, (py::arg("bonded") = false, py::arg("friction") = 0.),
+			"Take hold of the bottom and the top along z, which stay free across: of their nodes, or of rigid grains by plates, which pull as well if they are bonded. With a friction above 0 [-] by plates of any grains, to which they stick from now on as far as it bears. Scale the masses afterwards.")
+		.def("holdBottom", After<&GrainSolver::requireSolid, &GrainSolver::holdBottom>::call, (py::arg("plate") = false), "Take hold of the bottom alone in the same way, if it is not held, and of a place on it across; the top may bear a pressure meanwhile. plate: by a plate of any grains.")
+		.def("holdDisc", After<&GrainSolver::requireSolid, &GrainSolver::holdDisc>::call, (py::arg("jawRadius") = 0.), "Lay a smooth plate below a disc and one on top, which touch it, or jaws of a radius [m]. What they touch at first does not move along x, and one place of it not along y, else the disc would roll. Scale the masses afterwards.")
+		.def("layLine", After<&GrainSolver::requireSolid, &GrainSolver::layLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false),
+			"Lay a plate that bears along a line across the depth, along y at x and z, with the stiffness of a strip of that width [m]: a roller on the bottom (side 0) or a head on top (2). pinned: it does not slide while it presses. Returns its number. Scale the masses afterwards.")
+		.def("findLine", After<&GrainSolver::requireSolid, &GrainSolver::findLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false), "Number of the plate that layLine has laid so; -1 without one.")
+		.def("layPatch", After<&GrainSolver::requireSolid, &GrainSolver::layPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
+			"Lay a plate against what lies of the outside in a box from low to high [m] and faces a normal, a unit vector that points into the specimen. friction: coefficient [-]; bonded: it pulls, too; strip: stiffness per area of a soft layer between, in series [Pa/m]; seated: it turns about the middle of its face, as on a spherical seat. Returns its number. Scale the masses afterwards.")
+		.def("findPatch", After<&GrainSolver::requireSolid, &GrainSolver::findPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false), "Number of the plate that layPatch has laid so; -1 without one.")
+		.def("layJaw", After<&GrainSolver::requireSolid, &GrainSolver::layJaw>::call, (py::arg("towards"), py::arg("ratio"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
+			"Lay a curved jaw against the mantle of a disc about the y axis, in a direction from that axis, before an angle of it [rad]. ratio: of its radius over the disc's, at least 1; friction: coefficient [-]; strip: as of layPatch. Returns its number. Scale the masses afterwards.")
+		.def("findJaw", After<&GrainSolver::requireSolid, &GrainSolver::findJaw>::call, (py::arg("towards"), py::arg("ratio"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.), "Number of the plate that layJaw has laid so; -1 without one.")
+		.def("freePlate", After<&GrainSolver::requireSolid, &GrainSolver::freePlate>::call, (py::arg("plate")), "Let a load move a plate along its normal, for :yref:`PressureController`; it stands until then. Scale the masses afterwards.")
+		.def("setMachine", After<&GrainSolver::requireGrains, &GrainSolver::setMachine>::call, (py::arg("plate"), py::arg("stiffness")),
 			"Lay the spring of a soft machine [N/m] behind a plate, along its normal. What drives the plate then drives its crosshead, the spring's other end.")
-		.def("gaugePoints", AfterAssembly<&GrainSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
+		.def("gaugePoints", After<&GrainSolver::requireGrains, &GrainSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
 			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
-		.def("sectionNodes", AfterAssembly<&GrainSolver::sectionNodes>::call, (py::arg("place"), py::arg("direction"), py::arg("width")),
+		.def("sectionNodes", After<&GrainSolver::requireGrains, &GrainSolver::sectionNodes>::call, (py::arg("place"), py::arg("direction"), py::arg("width")),
 			"The nodes in a band of a width [m] around a place along a direction, a unit vector, and their mean place along it [m], for :yref:`Gauge`.")
-		.def("fixTangential", AfterAssembly<&GrainSolver::fixTangential>::call, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
-		.def("nodePlaces", AfterAssembly<&GrainSolver::nodePlaces>::call, (py::arg("bonded") = false), "Nodes that a set may hold, (n,), all of deformable grains and the centres of rigid ones, and where they are, or were when bonded, (n, 2) [m].")
-		.def("addNodeSet", AfterAssembly<&GrainSolver::addNodeSet>::call, (py::arg("nodes"), py::arg("x") = true, py::arg("y") = true),
-			"Hold nodes of nodePlaces at rest along x, y or both, and return the number of their set.")
-		.def("turnNodeSet", AfterAssembly<&GrainSolver::turnNodeSet>::call, (py::arg("set"), py::arg("about") = py::object()),
-			"Let a set turn about a point [m], or, with None, about the mean of its places, free to move: a moment alone acts.")
-		.def("moveNodeSet", AfterAssembly<&GrainSolver::moveNodeSet>::call, (py::arg("set"), py::arg("velocity")),
-			"Move a set from the next step on: velocity along x and y [m/s, or m per step with scaled masses]; z: spin [rad/s].")
-		.def("nodeSets", AfterAssembly<&GrainSolver::nodeSets>::call, "Each node set as a dictionary: nodes, axes that it holds, whether it floats, place of its pivot [m], displacement [m], angle [rad], force on the specimen [N], moment about the pivot [N m], work that it has done [J].")
-		.def("holdSide", AfterAssembly<&GrainSolver::holdSide>::call, (py::arg("side"), py::arg("x") = false, py::arg("y") = false),
-			"Keep a side of the outline from moving along x, y or both: nodes of deformable grains; of rigid grains the centres across the side, and the edges along it.")
-		.def("addWall", AfterAssembly<&GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
+		.def("fixTangential", After<&GrainSolver::requirePlane, &GrainSolver::fixTangential>::call, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
+		.def("nodePlaces", After<&GrainSolver::requireGrains, &GrainSolver::nodePlaces>::call, (py::arg("bonded") = false), "Nodes that a set may hold, (n,), all of deformable grains and the centres of rigid ones, and where they are, or were when bonded, (n, 2) or (n, 3) [m].")
+		.def("addNodeSet", After<&GrainSolver::requireGrains, &GrainSolver::addNodeSet>::call, (py::arg("nodes"), py::arg("x") = true, py::arg("y") = true, py::arg("z") = true),
+			"Hold nodes of nodePlaces at rest along the axes named, z in 3D alone, and return the number of their set.")
+		.def("turnNodeSet", After<&GrainSolver::requireGrains, &GrainSolver::turnNodeSet>::call, (py::arg("set"), py::arg("about") = py::object()),
+			"Let a set turn about a point [m], or, in 2D with None, about the mean of its places, free to move: a moment alone acts.")
+		.def("moveNodeSet", After<&GrainSolver::requireGrains, &GrainSolver::moveNodeSet>::call, (py::arg("set"), py::arg("velocity"), py::arg("spin") = Vector3r(Vector3r::Zero())),
+			"Move a set from the next step on at a velocity [m/s, or m per step with scaled masses], and turn it about its place at a spin [rad/s, or rad per step]; in 2D the third component of the velocity is the spin.")
+		.def("nodeSets", After<&GrainSolver::requireGrains, &GrainSolver::nodeSets>::call, "Each node set as a dictionary: nodes, axes that it holds, whether it floats, place of its pivot [m], displacement [m], angle [rad], force on the specimen [N], moment about the pivot [N m], work that it has done [J].")
+		.def("holdSide", After<&GrainSolver::requireGrains, &GrainSolver::holdSide>::call, (py::arg("side"), py::arg("x") = false, py::arg("y") = false, py::arg("z") = false),
+			"Keep a side of the outline from moving along the axes named: nodes of deformable grains; of rigid grains the centres across the side, and the edges or the middles of the faces along it. Sides of a solid: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig takes the ends, make plane strain of a box.")
+		.def("addWall", After<&GrainSolver::requirePlane, &GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")
-		.add_property("gravity", AfterAssembly<&GrainSolver::gravity>::call, AfterAssembly<&GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2].")
-		.def("plates", AfterAssembly<&GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], friction [-], whether it is bonded and pressed, place of its face [m], work that it has done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
-		.def("mirrorBodies", WithGrains<&GrainSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is: states, bonds, forces.")
-		.def("resetEnergyBalance", AfterAssembly<&GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one.")
-		.def("elasticConstants", AfterAssembly<&GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of a rectangle, by one sparse solve.")
-		.def("energies", WithGrains<&GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
-		.def("snapshot", AfterAssembly<&GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays): of what exists, and the record of erased bonds.")
-		.def("cracks", WithGrains<&GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
-		.def("wallForces", AfterAssembly<&GrainSolver::wallForces>::call, (py::arg("grains")), "Nodes on which some grains act from outside of them, and their forces there, x and y, at the last step [N], for :yref:`ReleaseController`.")
-		.def("parting", AfterAssembly<&GrainSolver::parting>::call, "Largest growth of the distance between grains that were bonded to each other [m]: of any pair, and of those standing, of which neither is loose; loose: number of grains that no contact joins any more to what is held, which no pressure acts on.")
-		.def("counts", AfterAssembly<&GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles, mesh groups and boundary edges; nothing erased counts.")
-		.def("overlaps", AfterAssembly<&GrainSolver::overlaps>::call, (py::arg("smallest") = 1e-3),
-			"Pairs of grains whose polygons overlap by more than a part of the smaller one, by name: grains (n, 2), area that both cover [m^2], part of the smaller grain [-], bonded (once, not on a joint), facing (bonded, and the faces lie as they did), closed: normal force of the pair over its stiffness and the thickness, the area that this accounts for [m^2].")
-		.def("unbalanced", WithGrains<&GrainSolver::unbalanced>::call, "Ratio of the largest unbalanced force to the mean contact force [-], at the last measured step; forces on plates under a load count per grain before them.")
-		.def("crossingSteps", AfterAssembly<&GrainSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a disc of the grains of a diameter [m] [-].")
-		.def("balance", AfterAssembly<&GrainSolver::balance>::call,
+		.add_property("gravity", After<&GrainSolver::requirePlane, &GrainSolver::gravity>::call, After<&GrainSolver::requirePlane, &GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2].")
+		.def("plates", After<&GrainSolver::requireGrains, &GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], friction [-], whether it is bonded and pressed, place of its face [m], work that it has done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
+		.def("mirrorBodies", After<&GrainSolver::requireGrains, &GrainSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is: states, bonds, forces.")
+		.def("resetEnergyBalance", After<&GrainSolver::requireGrains, &GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one. Of a solid before the first step alone.")
+		.def("elasticConstants", After<&GrainSolver::requireGrains, &GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of the unloaded grains by their linear solution: of a rectangle, or of a solid between smooth ends. The grains stay as they are.")
+		.def("energies", After<&GrainSolver::requireGrains, &GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
+		.def("snapshot", After<&GrainSolver::requireGrains, &GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays): of what exists, and the record of erased bonds.")
+		.def("cracks", After<&GrainSolver::requireGrains, &GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
+		.def("wallForces", After<&GrainSolver::requirePlane, &GrainSolver::wallForces>::call, (py::arg("grains")), "Nodes on which some grains act from outside of them, and their forces there, x and y, at the last step [N], for :yref:`ReleaseController`.")
+		.def("parting", After<&GrainSolver::requirePlane, &GrainSolver::parting>::call, "Largest growth of the distance between grains that were bonded to each other [m]: of any pair, and of those standing, of which neither is loose; loose: number of grains that no contact joins any more to what is held, which no pressure acts on.")
+		.def("counts", After<&GrainSolver::requireGrains, &GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles or tetrahedra, mesh groups and boundary edges; nothing erased counts.")
+		.def("overlaps", After<&GrainSolver::requireGrains, &GrainSolver::overlaps>::call, (py::arg("smallest") = 1e-3),
+			"Pairs of grains whose polygons overlap by more than a part of the smaller one, by name: grains (n, 2), area that both cover [m^2], part of the smaller grain [-], bonded (once, not on a joint), facing (bonded, and the faces lie as they did), closed: normal force of the pair over its stiffness and the thickness, the area that this accounts for [m^2]. Of a solid the deepest overlap of grains that share no contact, which nothing keeps apart: depth [m], of_diameter, over the mean diameter [-], grains, a pair, and pairs, how many overlap.")
+		.def("unbalanced", After<&GrainSolver::requireGrains, &GrainSolver::unbalanced>::call, "Ratio of the largest unbalanced force to the mean contact force [-], at the last measured step; forces on plates under a load count per grain before them.")
+		.def("crossingSteps", After<&GrainSolver::requireGrains, &GrainSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a disc, in 3D a ball, of the grains of a diameter [m] [-].")
+		.def("balance", After<&GrainSolver::requireGrains, &GrainSolver::balance>::call,
 			"How far the specimen is in balance as a whole, at the last step, as a dictionary. mean_stress: mean of its Cauchy stress, (xx, yy, xy), tension positive [Pa]; "
 			"of rigid grains by the contact forces and branches. outside_stress: what pressure, plates, held nodes and weight would make of it in balance [Pa]. "
 			"missing_force: sum of the net forces on all that is free to move, (x, y) [N]. plate_share: largest part of its load that "
 			"the specimen does not bear of a plate under one [-]. A wave sets the two stresses apart while unbalanced() is small.")
-		.def("clearPressure", AfterAssembly<&GrainSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side of the outline.")
-		.def("sideNodes", AfterAssembly<&GrainSolver::sideNodes>::call, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
+		.def("clearPressure", After<&GrainSolver::requireGrains, &GrainSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side of the outline.")
+		.def("sideNodes", After<&GrainSolver::requirePlane, &GrainSolver::sideNodes>::call, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
 	);
 	// clang-format on
 	DECLARE_LOGGER;
 
-protected:
+private:
 	static vector<shared_ptr<Material>> materialsOf(const py::list& list);
 	void                                keepMaterials(const vector<shared_ptr<Material>>& ofGrains);
 	void                                requirePeriods() const;
@@ -229,20 +259,18 @@ protected:
 	void                                trackEnergies();
 	void                                check();
 	void                                mirrorAtStop();
-	virtual void                        findStates();
-	virtual void                        mirrorStates();
-	/// Take out what scripts have erased.
-	virtual void removeErased();
-	bool         isInScene() const;
-	bool         hasInteraction(int contact) const;
+	void                                findStates();
+	void                                mirrorStates();
+	/// Take out what scripts have erased; of a solid refuse that.
+	void removeErased();
+	bool isInScene() const;
+	bool hasInteraction(int contact) const;
 	/// The body of a grain, null if a script has erased it.
 	Body* bodyOf(const Scene& world, int grain) const;
 	/// The arrays, as shapes and bonds look at them.
 	OwnedAssembly own() const;
 
-	vector<shared_ptr<State>> states; // of the bodies, by slot, of solids by grain; kept alive, so that a body may go at any time
-
-private:
+	vector<shared_ptr<State>>   states; // of the bodies, by slot, of solids by grain; kept alive, so that a body may go at any time
 	flexpm::NearPairs           nearPairs;
 	vector<flexpm::GrainPair>   candidates;       // near pairs without a contact
 	bool                        listed = false;   // the candidates are up to date
@@ -250,6 +278,10 @@ private:
 	mutable vector<std::size_t> places;           // of the contacts among the interactions, when last seen
 	void                        requireReady() const;
 	void                        takeStep();
+	void                        takeSolidStep();
+	void                        mirrorPlane();
+	void                        mirrorSolid();
+	void                        refuseErased();
 	void                        insertBodies();
 	void                        insertContacts();
 	/// What scripts have erased since the last look.

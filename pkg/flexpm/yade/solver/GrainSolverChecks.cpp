@@ -34,11 +34,16 @@ namespace {
 
 } // namespace
 
-void GrainSolver::requireAssembled() const
+void GrainSolver::requirePlane() const
 {
 	requireGrains();
-	if (assembly.grains.count == 0)
-		fail("GrainSolver: grains", "those of a solid", "must be of the plane for this; a solid is held and loaded by its ends");
+	if (dimension() == 3) fail("GrainSolver: grains", "those of a solid", "must be of the plane for this; a solid is held and loaded by its ends");
+}
+
+void GrainSolver::requireSolid() const
+{
+	requireGrains();
+	if (dimension() == 2) fail("GrainSolver: grains", "those of the plane", "must be of a solid for this; lay plates and jaws with addSidePlates, addPatchPlate and addJawPlate");
 }
 
 void GrainSolver::requireGrains() const
@@ -54,7 +59,7 @@ bool GrainSolver::measured() const
 
 void GrainSolver::requireReady() const
 {
-	requireAssembled();
+	requireGrains();
 	requirePeriods();
 	if (!(touchMargin >= 0 && touchMargin <= 10)) fail("GrainSolver.touchMargin", number(touchMargin), "must be from 0 to 10 diameters");
 	requireInScene();

@@ -2,6 +2,7 @@
 /// @file  Contacts that come and go: the kernel's contacts to interactions.
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/crack_faces.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
@@ -42,6 +43,7 @@ bool GrainSolver::hasInteraction(int contact) const
 
 bool GrainSolver::holds(int place) const
 {
+	if (dimension() == 3) return !isInScene() || hasInteraction(place);
 	if (assembly.contacts.erased[place]) return false;
 	return !isInScene() || !flexpm::is_active(assembly.contacts, place) || hasInteraction(place);
 }
@@ -69,7 +71,8 @@ flexpm::Erasure GrainSolver::findErased() const
 
 void GrainSolver::removeErased()
 {
-	seenDestroyed   = destroyedContacts();
+	seenDestroyed = destroyedContacts();
+	if (solid()) return refuseErased();
 	listed          = false;
 	const auto what = findErased();
 	if (what.empty()) return;
@@ -77,6 +80,21 @@ void GrainSolver::removeErased()
 	const std::lock_guard<std::mutex> lock(world->interactions->drawloopmutex); // a window may be drawing contacts
 	flexpm::erase(assembly, what, world->dt);
 	nearPairs.forget(); // what was erased may touch again
+}
+
+void GrainSolver::refuseErased()
+{
+	int         grains = 0, bonds = 0;
+	const auto& world = *Omega::instance().getScene();
+	for (int grain = 0; grain < space.grains.count; ++grain)
+		grains += !bodyOf(world, grain);
+	for (int c = 0; c < space.contacts.count; ++c)
+		bonds += !hasInteraction(c);
+	if (grains == 0 && bonds == 0) return;
+	flexpm::fail(
+	        getClassName() + ": grains and bonds that are erased",
+	        std::to_string(grains) + " and " + std::to_string(bonds),
+	        "must be 0: a solid keeps them; build the specimen again (O.reset(), flexpm.build)");
 }
 
 void GrainSolver::listCandidates()

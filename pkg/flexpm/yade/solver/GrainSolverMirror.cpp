@@ -15,13 +15,12 @@ namespace yade {
 
 void GrainSolver::findStates()
 {
-	const auto slots = assembly.grains.in_slot.size();
-	const auto world = Omega::instance().getScene(); // an engine knows its scene from its first step on
-	states.assign(slots, nullptr);
-	for (std::size_t slot = 0; slot < slots; ++slot) {
-		const int grain = assembly.grains.in_slot[slot];
-		if (grain < 0) continue;
-		if (const Body* body = bodyOf(*world, grain)) states[slot] = body->state;
+	const auto& grains = this->grains();
+	const auto  world  = Omega::instance().getScene(); // an engine knows its scene from its first step on
+	const bool  plane  = dimension() == 2;
+	states.assign(plane ? grains.in_slot.size() : grains.count, nullptr);
+	for (int grain = 0; grain < grains.count; ++grain) {
+		if (const Body* body = bodyOf(*world, grain)) states[plane ? grains.slot[grain] : grain] = body->state;
 	}
 }
 
@@ -50,6 +49,31 @@ namespace {
 void GrainSolver::mirrorStates()
 {
 	requireInScene();
+	if (solid())
+		mirrorSolid();
+	else
+		mirrorPlane();
+}
+
+void GrainSolver::mirrorSolid()
+{
+	const auto& grains = space.grains;
+	if (int(states.size()) != grains.count) findStates();
+	for (int grain = 0; grain < grains.count; ++grain) {
+		if (!states[grain]) continue;
+		State&    shown    = *states[grain];
+		const int centre   = grains.centre(grain);
+		shown.se3.position = toYade(grains.position(centre));
+		shown.vel          = toYade(grains.vector(grains.velocity, centre));
+		if (!grains.is_rigid(grain)) continue;
+		const auto& body      = space.bodies[grain];
+		shown.se3.orientation = Quaternionr(body.turn.w, body.turn.v.x, body.turn.v.y, body.turn.v.z);
+		shown.angVel          = toYade(body.spin);
+	}
+}
+
+void GrainSolver::mirrorPlane()
+{
 	if (states.size() != assembly.grains.in_slot.size()) findStates();
 	flexpm::CentreMotion motion;
 	for (int block = 0; block < assembly.grains.blocks(); ++block) {

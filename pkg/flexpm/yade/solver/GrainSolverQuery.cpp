@@ -11,6 +11,10 @@
 #include <flexpm/kernel/measure/grain_parting.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
 #include <flexpm/kernel/measure/overlaps.hpp>
+#include <flexpm/kernel/laboratory/solid_ends.hpp>
+#include <flexpm/kernel/laboratory/solid_frame.hpp>
+#include <flexpm/kernel/measure/solid_overlaps.hpp>
+#include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 
 #include <algorithm>
@@ -21,11 +25,16 @@ using flexpm_bindings::copied;
 
 py::tuple GrainSolver::elasticConstants()
 {
-	const auto e = flexpm::elastic_constants(current());
+	current();
+	const auto e = solid() ? flexpm::constants_between_ends(space) : flexpm::elastic_constants(assembly);
 	return py::make_tuple(e.youngs_modulus, e.poissons_ratio);
 }
 
-Real GrainSolver::crossingSteps(Real diameter) { return flexpm::disc_scales(assembly, diameter, Omega::instance().getScene()->dt).crossing_steps; }
+Real GrainSolver::crossingSteps(Real diameter)
+{
+	const Real dt = Omega::instance().getScene()->dt;
+	return solid() ? flexpm::ball_crossing_steps(space, diameter, dt) : flexpm::disc_scales(assembly, diameter, dt).crossing_steps;
+}
 
 py::dict GrainSolver::energies()
 {
@@ -78,8 +87,42 @@ py::dict GrainSolver::parting()
 	return d;
 }
 
+namespace {
+
+	py::dict countsOf(const flexpm::SolidState& state)
+	{
+		const auto& grains = state.grains;
+		int         nodes = 0, tetrahedra = 0;
+		for (int grain = 0; grain < grains.count; ++grain)
+			nodes += grains.nodes_of(grain);
+		for (int block = 0; block < grains.blocks(); ++block)
+			flexpm::for_each_tetrahedron(state, block, [&](auto&&...) { ++tetrahedra; });
+		py::dict d;
+		d["grains"]         = grains.count;
+		d["particles"]      = grains.count;
+		d["contacts"]       = state.contacts.count;
+		d["inner_contacts"] = 0;
+		d["nodes"]          = nodes;
+		d["tetrahedra"]     = tetrahedra;
+		return d;
+	}
+
+	py::dict deepestOverlap(const flexpm::SolidState& state)
+	{
+		const auto found = flexpm::largest_overlap(state);
+		py::dict   d;
+		d["depth"]       = found.depth;
+		d["of_diameter"] = found.of_diameter;
+		d["grains"]      = py::make_tuple(found.pair[0], found.pair[1]);
+		d["pairs"]       = found.pairs;
+		return d;
+	}
+
+} // namespace
+
 py::dict GrainSolver::counts()
 {
+	if (solid()) return countsOf(space);
 	const auto& a        = current();
 	const auto  grains   = flexpm::count_grains(a.grains);
 	const auto  contacts = flexpm::count_contacts(a);
@@ -98,6 +141,7 @@ py::dict GrainSolver::counts()
 
 py::dict GrainSolver::overlaps(Real smallestPart)
 {
+	if (solid()) return deepestOverlap(space);
 	std::vector<std::int32_t> grains;
 	std::vector<std::uint8_t> bonded, facing;
 	std::vector<double>       area, part, closed;
@@ -151,6 +195,10 @@ py::object GrainSolver::sideNodes(int side)
 	return copied(rows, 2);
 }
 
-py::dict GrainSolver::snapshot() { return flexpm_bindings::snapshot_dict(current()); }
+py::dict GrainSolver::snapshot()
+{
+	current();
+	return solid() ? snapshotOf(space) : flexpm_bindings::snapshot_dict(assembly);
+}
 
 } // namespace yade

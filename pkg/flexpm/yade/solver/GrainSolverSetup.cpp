@@ -7,7 +7,10 @@
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
+#include <flexpm/kernel/statics/solid_spectrum.hpp>
 #include <flexpm/kernel/topology/assembly_build.hpp>
+#include <flexpm/kernel/topology/solid_build.hpp>
 #include <flexpm/yade/bindings/assembly_input.hpp>
 #include <flexpm/yade/grains/GrainMat.hpp>
 #include <flexpm/yade/grains/LaguerreCell.hpp>
@@ -52,7 +55,7 @@ void GrainSolver::keepMaterials(const vector<shared_ptr<Material>>& ofGrains)
 void GrainSolver::assemble(const flexpm_bindings::AssemblyInput& input, py::list minerals, py::list pairs, py::list joints)
 {
 	// views of the arrays live as long as the solver
-	if (assembly.grains.count > 0) flexpm::refuse("GrainSolver: grains", assembly.grains.count, "", "are assembled already; make another GrainSolver");
+	if (hasGrains()) flexpm::refuse("GrainSolver: grains", grains().count, "", "are assembled already; make another GrainSolver");
 	flexpm::AssemblyOptions o        = input.options;
 	const auto              ofGrains = materialsOf(minerals);
 	for (const auto& m : ofGrains)
@@ -141,10 +144,28 @@ void GrainSolver::insertContacts()
 	seenDestroyed = destroyedContacts();
 }
 
+void GrainSolver::assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list minerals, py::list pairs, vector<int> kinds, bool rigid)
+{
+	if (hasGrains()) flexpm::refuse(getClassName() + ": grains", grains().count, "", "are assembled already; make another " + getClassName());
+	flexpm::SolidInput input;
+	const auto         ofGrains = materialsOf(minerals);
+	for (const auto& m : ofGrains)
+		input.grains.push_back(elasticOf(static_cast<const GrainMat&>(*m)));
+	for (const auto& m : py::len(pairs) > 0 ? materialsOf(pairs) : ofGrains)
+		input.contacts.push_back(contactOf(static_cast<const GrainMat&>(*m)));
+	input.kind  = kinds;
+	input.rigid = rigid;
+	space       = flexpm::make_solid(cells, outline, input);
+	keepMaterials(ofGrains);
+}
+
 void GrainSolver::scaleMasses()
 {
 	const Real dt = Omega::instance().getScene()->dt;
-	flexpm::scale_masses(assembly, damping, dt);
+	if (solid())
+		flexpm::scale_masses_closely(space, damping, dt);
+	else
+		flexpm::scale_masses(assembly, damping, dt);
 	scaled      = true;
 	massStep    = dt;
 	massDamping = damping;
@@ -152,13 +173,20 @@ void GrainSolver::scaleMasses()
 
 Real GrainSolver::useRealMasses()
 {
-	massStep    = flexpm::set_real_masses(assembly, damping);
+	if (solid()) flexpm::set_real_masses(space);
+	massStep    = solid() ? flexpm::stable_step(space, damping) : flexpm::set_real_masses(assembly, damping);
 	massDamping = damping;
 	scaled      = false;
 	return massStep;
 }
 
-void GrainSolver::resetEnergyBalance() { flexpm::reset_energy_balance(current()); }
+void GrainSolver::resetEnergyBalance()
+{
+	if (!solid()) return flexpm::reset_energy_balance(current());
+	if (space.step > 0)
+		flexpm::refuse(getClassName() + ".resetEnergyBalance: steps", double(space.step), "", "must be 0; call it before the first step");
+	flexpm::begin_balance(space);
+}
 
 Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, assembly.gravity.z); }
 

@@ -72,7 +72,7 @@ class SolidDiscRig(EndRig):
 
     def _new_frame(self) -> wrapper.TestFrame:
         sizes = self.built.specimen.dimensions
-        return wrapper.SolidDiscFrame(diameter=sizes["diameter"], depth=sizes["depth"])
+        return wrapper.DiscFrame(diameter=sizes["diameter"], depth=sizes["depth"])
 
     def _take_hold(self) -> wrapper.LoadingController:
         self._solid.holdDisc(self._radius)

@@ -203,9 +203,6 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
                 "a seat, or give two friction"
             )
 
-    def _new_frame(self) -> wrapper.SolidPartFrame:
-        return wrapper.SolidPartFrame()
-
     def _take_hold(self) -> wrapper.LoadingController:
         frame = self._frame
         self._let_go(frame.driven)
@@ -227,9 +224,3 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
             assert isinstance(loading, wrapper.SolidLoadingController)
         # a rig that presses gives the velocity of its upper end, upwards
         loading.velocity, loading.velocityFactor = -velocity, factor
-
-    @property
-    def _frame(self) -> wrapper.SolidPartFrame:
-        frame = super()._frame
-        assert isinstance(frame, wrapper.SolidPartFrame)
-        return frame

@@ -23,7 +23,5 @@ class SolidGrains(GrainRig):
         return None
 
     @property
-    def _solid(self) -> wrapper.SolidSolver:
-        solver = self.built.solver
-        assert isinstance(solver, wrapper.SolidSolver)
-        return solver
+    def _solid(self) -> wrapper.GrainSolver:
+        return self.built.solver

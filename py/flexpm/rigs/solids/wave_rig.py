@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from typing import cast
-
 from yade import wrapper
 
 from ...results import waves
@@ -28,7 +26,7 @@ class SolidWaveRig(WaveRig):
         return young if self._free else waves.solid_modulus(self._wave, young, poisson)
 
     def _hold_sides(self) -> None:
-        hold = cast(wrapper.SolidSolver, self.built.solver).holdSide
+        hold = self.built.solver.holdSide
         sheared = self._moved == ACROSS
         if self.built.specimen.kind != "box":  # a mantle, which faces all ways
             hold(RIGHT, x=not sheared, y=not sheared, z=sheared)

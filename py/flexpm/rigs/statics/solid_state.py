@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from yade import wrapper
 
 from ...arrays import FloatArray
 from ...errors import InputError
@@ -83,7 +82,6 @@ class SolidPartStatics(PartStatics):
         """
         way, asked = required_loading(way, load)
         frame = self._frame
-        assert isinstance(frame, wrapper.SolidPartFrame)
         driven = bool(frame.driven or frame.drivenSets)
         moves = asked is not None or way != 0.0
         if moves:
@@ -104,7 +102,7 @@ class SolidPartStatics(PartStatics):
                 push = np.dot(sum_of.plates[frame.driven[0]][:3], np.array(frame.direction))
                 behind = float(push) / self.machine
             if moves or behind:
-                found = frame.elasticState(list(pressed))
+                found = frame.solidState(list(pressed))
                 if asked is not None and not found["load"]:
                     raise ValueError(f"load = {asked:g}, must be left out: nothing resists")
                 missing = 0.0 if asked is None else asked - sum_of.load

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  What Python asks of a solid: counts, overlaps, arrays.
-#include <flexpm/yade/solver/SolidSolver.hpp>
+/// @file  The state in 3D as plain arrays.
+#include <flexpm/yade/solver/GrainSolver.hpp>
 
-#include <flexpm/kernel/laboratory/solid_frame.hpp>
-#include <flexpm/kernel/measure/solid_overlaps.hpp>
-#include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/view/snapshot.hpp>
 
 #include <algorithm>
@@ -28,40 +25,7 @@ namespace {
 
 } // namespace
 
-py::dict SolidSolver::counts()
-{
-	const auto& grains = state.grains;
-	int         nodes = 0, tetrahedra = 0;
-	for (int grain = 0; grain < grains.count; ++grain)
-		nodes += grains.nodes_of(grain);
-	for (int block = 0; block < grains.blocks(); ++block)
-		flexpm::for_each_tetrahedron(state, block, [&](auto&&...) { ++tetrahedra; });
-	py::dict d;
-	d["grains"]         = grains.count;
-	d["particles"]      = grains.count;
-	d["contacts"]       = state.contacts.count;
-	d["inner_contacts"] = 0;
-	d["nodes"]          = nodes;
-	d["tetrahedra"]     = tetrahedra;
-	return d;
-}
-
-py::dict SolidSolver::overlaps()
-{
-	const auto found = flexpm::largest_overlap(state);
-	py::dict   d;
-	d["depth"]       = found.depth;
-	d["of_diameter"] = found.of_diameter;
-	d["grains"]      = py::make_tuple(found.pair[0], found.pair[1]);
-	d["pairs"]       = found.pairs;
-	return d;
-}
-
-Real SolidSolver::crossingSteps(Real diameter) { return flexpm::ball_crossing_steps(state, diameter, Omega::instance().getScene()->dt); }
-
-py::dict SolidSolver::snapshot() { return snapshotOf(state); }
-
-py::dict SolidSolver::snapshotOf(const flexpm::SolidState& state)
+py::dict GrainSolver::snapshotOf(const flexpm::SolidState& state)
 {
 	auto     s = flexpm::take_snapshot(state);
 	py::dict d;
