@@ -23,7 +23,8 @@ file(STRINGS /etc/os-release os REGEX "^VERSION_ID=")
 string(REGEX REPLACE "[^0-9]" "" debian "${os}")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME flexpm)
-set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION}+deb${debian})
+string(REPLACE ".dev" "~dev" version "${flexpm_version}") # Debian takes it for older than the release
+set(CPACK_PACKAGE_VERSION ${version}+deb${debian})
 set(CPACK_PACKAGE_CONTACT "The flexpm developers <flexpm@users.noreply.github.com>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "flexible particle model of rock fracture for YADE")
 set(CPACK_PACKAGE_DESCRIPTION "A plugin of the discrete-element code YADE that models rock by
