@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import astuple, replace
-from typing import Unpack
+from typing import ClassVar, Self, Unpack, cast
 
 import numpy as np
 from yade import wrapper
@@ -40,12 +40,27 @@ class PartRig(PartColumns, PartExcavation):
 
     Lay parts with `support` and `platen`, hold nodes with `hold`, read with `gauge` and `way_of`,
     say with `drive` or `turn` which parts load, and then `load` or `strain_to`. In a run that is
-    taken up from a checkpoint the same calls find what they have laid before.
+    taken up from a checkpoint the same calls find what they have laid before. Places and directions
+    of a 3D specimen have a third component.
     """
 
     built: Model
     #: What makes such a rig, and whether of solids.
     _call, _of_solids = "PartRig", False
+    #: The class of a rig of a 3D specimen, which says so itself.
+    _rig_of_solids: ClassVar[type[PartRig]]
+
+    def __init_subclass__(cls) -> None:
+        """Note the class of a rig of solids."""
+        super().__init_subclass__()
+        if cls._of_solids:
+            PartRig._rig_of_solids = cls
+
+    def __new__(cls, built: Model, *_: object, **__: object) -> Self:
+        """Make a rig of the specimen's dimension."""
+        if cls is PartRig and is_solid(built.specimen.kind):
+            return cast(Self, super().__new__(PartRig._rig_of_solids))
+        return super().__new__(cls)
 
     def __init__(
         self,
@@ -69,9 +84,9 @@ class PartRig(PartColumns, PartExcavation):
                 and of rigid grains; for a folder that holds something else.
         """
         if is_solid(built.specimen.kind) != self._of_solids:
-            must = "a solid; flexpm.PartRig" if self._of_solids else "plane; flexpm.SolidPartRig"
             raise InputError(
-                f"{self._call}: specimen = {built.specimen.kind}, must be {must} is for this one"
+                f"{self._call}: specimen = {built.specimen.kind}, must be a solid; flexpm.PartRig "
+                "takes specimens of 2D and 3D"
             )
         rates_of(kind, built.name, solid=self._of_solids)
         if self._of_solids and built.dynamic:

@@ -5,7 +5,7 @@ import flexpm
 
 diameter, height, pressure = 0.012, 0.024, 4e6
 core = flexpm.Specimen.cylinder(diameter, height, seed=1)
-rig = flexpm.SolidPartRig(flexpm.build(core, "augig3d-calibrated"))
+rig = flexpm.PartRig(flexpm.build(core, "augig3d-calibrated"))
 base, top = (rig.platen(side, friction=0.1) for side in (0, 2))
 still = rig.elastic({top: pressure})
 stiffness = pressure * height / -still.displacement(top)[2]

@@ -61,7 +61,7 @@ def box():
 
 def rig_of(specimen, model="flexible", **leaves):
     yade.O.reset()
-    return flexpm.SolidPartRig(flexpm.build(specimen, MATERIAL, model), **leaves)
+    return flexpm.PartRig(flexpm.build(specimen, MATERIAL, model), **leaves)
 
 
 def imbalance(rig) -> float:
@@ -224,7 +224,6 @@ def test_what_is_wrong_is_refused(box):
         (lambda: rig.platen(2), "lies there already, must be apart"),
         (lambda: rig.support((0.006, 0.006, 0.0), 0.003), "lies there already, must be apart"),
         (lambda: rig.support((0.006, 0.006, 0.0)), "lies there already, must be apart"),
-        (lambda: flexpm.PartRig(rig.built), "must be plane; flexpm.SolidPartRig"),
     ]
     for call, told in refused:
         with pytest.raises(InputError, match=told):
@@ -428,3 +427,14 @@ def test_a_moved_set_takes_the_specimen_along(box):
         rig.hold(disc=((0.0, 0.0), 1.0))
     with pytest.raises(InputError, match="is held already"):
         rig.hold(ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.3 * SIZE))
+
+
+def test_one_name_of_the_rig_takes_specimens_of_both_dimensions(box):
+    rig = rig_of(box)
+    assert type(rig) is flexpm.SolidPartRig
+    yade.O.reset()
+    plane = flexpm.build(flexpm.Specimen.rectangle(0.02, 0.02, 0.01, seed=1), model="rigid")
+    assert type(flexpm.PartRig(plane)) is flexpm.PartRig
+    with pytest.raises(InputError, match="SolidPartRig: specimen = rectangle, must be a solid"):
+        flexpm.SolidPartRig(plane)
+    yade.O.reset()

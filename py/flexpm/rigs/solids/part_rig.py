@@ -31,10 +31,11 @@ from .patches import sides_under
 class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
     """A solid between parts: plates before parts of its outside, and sets of nodes.
 
-    Its calls are those of `PartRig`, places and directions with a third component: `support`,
-    `platen`, `jaw`, `hold`, `gauge`, `way_of`, `contact_of`, `angle_of`, `drive`, `turn`,
-    `elastic`, then `press`, `fluid`, `load`, `strain_to`, `stress_to`, `relax`, `unload`, `cycle`,
-    `follow`. What is of the plane alone is refused. Deviation D101.
+    `PartRig` of a solid makes one; this name goes with version 0.4. Its calls are those of
+    `PartRig`, places and directions with a third component: `support`, `platen`, `jaw`, `hold`,
+    `gauge`, `way_of`, `contact_of`, `angle_of`, `drive`, `turn`, `elastic`, then `press`, `fluid`,
+    `load`, `strain_to`, `stress_to`, `relax`, `unload`, `cycle`, `follow`. Features of 2D alone are
+    refused. Deviation D101.
     """
 
     _axes = SPACE
