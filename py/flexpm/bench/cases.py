@@ -14,18 +14,17 @@ from ..models import grains, spheres
 from ..models.options import DAMPING, SPHERE_MODELS
 from ..rigs.fitting import rig
 from ..runs.loading_rate import Loading
-from ..specimens.space.specimen import SolidSpecimen
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import AnySpecimen
 
 #: What a builder takes and gives: a specimen, threads; counts by name.
-Builder = Callable[[Specimen | SolidSpecimen, int], Mapping[str, int]]
+Builder = Callable[[AnySpecimen, int], Mapping[str, int]]
 
 #: Factor on the loading rate [-]: the steps of a measurement stay in the specimen's elastic range.
 _RATE = 0.1
 
 
 def build_own(
-    specimen: Specimen | SolidSpecimen, threads: int, model: str = "flexible", mesh: str = "refined"
+    specimen: AnySpecimen, threads: int, model: str = "flexible", mesh: str = "refined"
 ) -> Mapping[str, int]:
     """A uniaxial or Brazilian test as `flexpm run` sets it up, just before its first step."""
     built = grains.build(specimen, None, model, mesh=mesh, threads=threads)
@@ -39,7 +38,7 @@ def start(built: grains.Model | spheres.SphereModel) -> None:
     rig(built).start(Loading(rate=_RATE, kind="adaptive"))
 
 
-def _build_yade(specimen: Specimen | SolidSpecimen, threads: int, model: str) -> Mapping[str, int]:
+def _build_yade(specimen: AnySpecimen, threads: int, model: str) -> Mapping[str, int]:
     """Bonded spheres squeezed at about the same rate, without plates and record."""
     built = grains.build(specimen, None, model, damping=DAMPING, threads=threads)
     assert isinstance(built, spheres.SphereModel), model

@@ -23,8 +23,7 @@ from ..errors import InputError
 from ..files import Table, require_writable, write_text
 from ..progress import Progress
 from ..specimens.space.spec import SolidSpec
-from ..specimens.space.specimen import SolidSpecimen
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import AnySpecimen, Specimen
 from ..threads import for_scenes, limited
 from . import memory, solids
 from .cases import BUILDERS, Builder, solid_builders
@@ -147,7 +146,7 @@ def _run_plane(plan: Plan, progress: Progress | None) -> tuple[Table, list[tuple
 
 
 def compare_threads(
-    specimen: Specimen | SolidSpecimen,
+    specimen: AnySpecimen,
     steps: int,
     progress: Progress | None,
     builders: Mapping[str, tuple[str, Builder]] = BUILDERS,
@@ -180,7 +179,7 @@ def compare_threads(
 
 
 def compare(
-    specimen: Specimen | SolidSpecimen,
+    specimen: AnySpecimen,
     *,
     steps: int,
     threads: int = 1,
@@ -219,8 +218,7 @@ def compare(
             with for_scenes():
                 yade.O.reset()
     spec = specimen.spec
-    sizes = spec.sizes if isinstance(specimen, SolidSpecimen) else specimen.dimensions
-    described = {**sizes, "seed": spec.seed, **cases[0].counts}
+    described = {**specimen.dimensions, "seed": spec.seed, **cases[0].counts}
     return Timing(machine(), described, threads, turns * chunk, cases)
 
 
@@ -244,9 +242,7 @@ def grow(plan: Plan, progress: Progress | None) -> list[dict[str, float | int]]:
     return found
 
 
-def _case(
-    name: str, label: str, build: Builder, specimen: Specimen | SolidSpecimen, threads: int
-) -> Case:
+def _case(name: str, label: str, build: Builder, specimen: AnySpecimen, threads: int) -> Case:
     omega = yade.O
     with for_scenes():
         scene = omega.addScene()

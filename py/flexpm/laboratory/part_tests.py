@@ -10,8 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..arrays import FloatArray
-from ..errors import InputError, SimulationError
+from ..errors import InputError
 from ..kinds.layout import Frame, Lines, Plate
 from ..materials.material import Law, Material
 from ..materials.mixing import mineral_materials
@@ -23,9 +22,9 @@ from ..rigs.places import Place
 from ..rigs.solids.part_rig import SolidPartRig
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Runner
-from ..specimens.space.notch import NotchedSolid, notched
+from ..specimens.space.notch import notched
 from ..specimens.space.specimen import SolidSpecimen
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import AnySpecimen, Specimen
 
 #: Joint that notches are, in these tests.
 _NOTCH = "notch"
@@ -36,8 +35,8 @@ _TOUCHES = 1e-9
 
 
 def prepared(
-    spec: RunSpec, specimen: Specimen | SolidSpecimen, material: Material
-) -> tuple[Specimen | SolidSpecimen, Material]:
+    spec: RunSpec, specimen: AnySpecimen, material: Material
+) -> tuple[AnySpecimen, Material]:
     """The specimen and the material of a test, with its notches if it has some.
 
     Raises:
@@ -77,7 +76,7 @@ def _notched(
     return cut
 
 
-def _require_ligament(spec: RunSpec, cut: Specimen | SolidSpecimen, material: Material) -> None:
+def _require_ligament(spec: RunSpec, cut: AnySpecimen, material: Material) -> None:
     frame = _frame(spec, cut, material)
     if not spec.kind.ligament(frame) > _TOUCHES * frame.height:
         raise InputError(
@@ -133,8 +132,8 @@ def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
 
 def notch_depth(specimen: Specimen) -> float:
     """How far the notch has been cut from the bottom [m]; 0 without one. Deviation D35."""
-    bottom = _corners(specimen)[0][1]
-    return float(np.max(_notch(specimen)[..., 1], initial=bottom)) - bottom
+    bottom = specimen.corners[0][1]
+    return float(np.max(specimen.lines_of(_NOTCH)[..., 1], initial=bottom)) - bottom
 
 
 def _lay(rig: PartRig, plate: Plate, depth: float | None) -> Part:
@@ -169,19 +168,18 @@ def _frame_of(spec: RunSpec, built: Model) -> Frame:
 
 def _depths(built: Model) -> list[float]:
     """Depth of a solid [m]; of the plane none."""
-    specimen: Specimen | SolidSpecimen = built.specimen
-    return [specimen.dimensions["depth"]] if isinstance(specimen, SolidSpecimen) else []
+    specimen: AnySpecimen = built.specimen
+    return [] if specimen.depth is None else [specimen.depth]
 
 
-def _frame(spec: RunSpec, specimen: Specimen | SolidSpecimen, material: Material) -> Frame:
-    solid = isinstance(specimen, SolidSpecimen)
-    (left, bottom), (right, top) = _corners(specimen)
+def _frame(spec: RunSpec, specimen: AnySpecimen, material: Material) -> Frame:
+    (left, bottom), (right, top) = specimen.corners
     return Frame(
         *(left, bottom, right, top),
-        thickness=specimen.dimensions["depth"] if solid else specimen.thickness,
+        thickness=specimen.thickness if specimen.depth is None else specimen.depth,
         grain=specimen.mean_diameter,
         values={"confinement": spec.confinement, **spec.options},
-        notch=_notch(specimen),
+        notch=specimen.lines_of(_NOTCH),
         tensile_strength=_mean(material, spec.model, lambda law: law["tensile_strength"]),
         shear_strength=lambda pressure: _shear_strength(
             specimen, material, spec.model, pressure, () if spec.kind.cut is None else (_NOTCH,)
@@ -189,20 +187,10 @@ def _frame(spec: RunSpec, specimen: Specimen | SolidSpecimen, material: Material
     )
 
 
-def _notch(specimen: Specimen | SolidSpecimen) -> FloatArray:
-    """Ends (n, 2, 2) [m] of the contacts of the notches."""
-    if isinstance(specimen, NotchedSolid):
-        return specimen.lines()
-    if isinstance(specimen, SolidSpecimen):
-        return np.empty((0, 2, 2))
-    names = specimen.spec.joint_names or ()
-    return specimen.joint_lines()[names.index(_NOTCH)] if _NOTCH in names else np.empty((0, 2, 2))
-
-
 def _require_notch(spec: RunSpec, specimen: Specimen, material: Material, cuts: bool) -> None:
     """Refuse a joint named as the notch that is none: strong, or elsewhere."""
-    (left, bottom), (right, top) = _corners(specimen)
-    ends = _notch(specimen)
+    (left, bottom), (right, top) = specimen.corners
+    ends = specimen.lines_of(_NOTCH)
     law = next(law for law in material.joint_laws(spec.model) if law["name"] == _NOTCH)
     strength = max(law["cohesion"], law["tensile_strength"])
     x, y = (np.array(ends[..., axis]) for axis in (0, 1))
@@ -225,7 +213,7 @@ def _require_notch(spec: RunSpec, specimen: Specimen, material: Material, cuts: 
 
 
 def _shear_strength(
-    specimen: Specimen | SolidSpecimen,
+    specimen: AnySpecimen,
     material: Material,
     model: str,
     pressure: float,
@@ -233,8 +221,6 @@ def _shear_strength(
 ) -> float:
     """The least c + mu sigma_n [Pa] of the rock and of the specimen's joints but its notches."""
     rock = _mean(material, model, lambda law: law["cohesion"] + law["friction"] * pressure)
-    if isinstance(specimen, SolidSpecimen):
-        return rock
     joints = zip(specimen.spec.joint_names or (), specimen.joint_lines(), strict=True)
     there = [name for name, contacts in joints if len(contacts) and name not in notches]
     laws = material.joint_laws(model)
@@ -245,19 +231,3 @@ def _shear_strength(
 def _mean(material: Material, model: str, value: Callable[[Law], float]) -> float:
     """Mean over the minerals of a value of their laws."""
     return float(np.mean([value(kind.law(model)) for kind in mineral_materials(material)]))
-
-
-def _corners(
-    specimen: Specimen | SolidSpecimen,
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Lower left and upper right corner of the rectangle around a specimen, or its section [m]."""
-    if isinstance(specimen, SolidSpecimen):
-        sizes = specimen.dimensions
-        if specimen.kind == "solid-half-disc":
-            radius = 0.5 * sizes["diameter"]
-            return (-radius, 0.0), (radius, radius)
-        return (0.0, 0.0), (sizes["width"], sizes["height"])
-    if not isinstance(specimen.outline, np.ndarray):
-        raise SimulationError("outline = a circle, must be a polygon for a test between parts")
-    (left, bottom), (right, top) = specimen.outline.min(axis=0), specimen.outline.max(axis=0)
-    return (left, bottom), (right, top)

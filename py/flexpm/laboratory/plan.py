@@ -18,8 +18,7 @@ from ..runs import written
 from ..runs.checkpoint import INTERVAL, Checkpoint
 from ..runs.output import BEGUN, ROSE, Output, refuse_other_result
 from ..runs.run_spec import TESTS, RunSpec
-from ..specimens.space.specimen import SolidSpecimen
-from ..specimens.specimen import Specimen, require_specimen
+from ..specimens.specimen import AnySpecimen
 
 #: Names of the files of a run.
 FILES = (*written.FILES, "specimen.vtu", BEGUN, ROSE, TABLE, COLLECTION, STATE)
@@ -30,7 +29,7 @@ class Plan:
     """A run that can be done."""
 
     spec: RunSpec
-    specimen: Specimen | SolidSpecimen
+    specimen: AnySpecimen
     material: Material
     folder: Path | None
     checkpoint: Checkpoint | None  #: in the folder, with what an earlier start has left
@@ -39,7 +38,7 @@ class Plan:
 
 def plan_run(
     spec: RunSpec,
-    specimen: Specimen | SolidSpecimen,
+    specimen: AnySpecimen,
     material: Material,
     out: Path | str | None = None,
     checkpoint_interval: float = INTERVAL,
@@ -81,16 +80,6 @@ def plan_run(
     return Plan(spec, specimen, material, folder, checkpoint, output)
 
 
-def require_tested(where: str, given: object) -> None:
-    """Refuse what is no specimen, of the plane or of space.
-
-    Raises:
-        InputError: for anything else.
-    """
-    if not isinstance(given, SolidSpecimen):
-        require_specimen(where, given)
-
-
 def _require_frames(folder: Path, output: Output) -> None:
     """Refuse frames of a run that is complete and has none: they are taken while it goes on."""
     if output.frames and (folder / "result.json").is_file() and not (folder / TABLE).is_file():
@@ -100,13 +89,12 @@ def _require_frames(folder: Path, output: Output) -> None:
         )
 
 
-def _require_contacts(spec: RunSpec, specimen: Specimen | SolidSpecimen) -> None:
+def _require_contacts(spec: RunSpec, specimen: AnySpecimen) -> None:
     """Refuse a single grain that cannot deform, or whose contacts would set the start."""
     rigid = spec.model in ("rigid", *SPHERE_MODELS)
-    if isinstance(specimen, SolidSpecimen):
-        return
-    if len(specimen.discs) < 2 and (rigid or spec.start == "static"):
+    grains = len(specimen.radii)
+    if not spec.is_solid and grains < 2 and (rigid or spec.start == "static"):
         raise InputError(
-            f"run: grains = {len(specimen.discs)}, must be >= 2 for {spec.test} of model "
+            f"run: grains = {grains}, must be >= 2 for {spec.test} of model "
             f"{spec.model} with start {spec.start}; there is no contact"
         )

@@ -16,9 +16,9 @@ from ..runs.checkpoint import INTERVAL
 from ..runs.groups import GrainOptions, RunOptions, documented, options_of
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec
-from ..specimens.specimen import AnySpecimen
+from ..specimens.specimen import AnySpecimen, require_specimen
 from .carrying_out import carry_out
-from .plan import plan_run, require_tested
+from .plan import plan_run
 
 
 @documented
@@ -68,7 +68,7 @@ def run(
     Raises:
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
     """
-    require_tested("run", specimen)
+    require_specimen("run", specimen)
     asked: Table = {**options}
     output = Output(**{name: asked.pop(name) for name in options_of(Output) if name in asked})
     chosen = load_material(material, model, solid=is_solid(specimen.spec.kind))

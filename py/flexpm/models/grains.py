@@ -16,18 +16,18 @@ from yade import wrapper
 
 from .._flexpm import set_engines
 from ..arrays import IntArray
-from ..dimensions import refused
+from ..dimensions import is_solid, refused
 from ..errors import InputError, SimulationError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
-from ..results.solids.state import SolidSnapshot
+from ..results.solids.state import AnySnapshot, SolidSnapshot
 from ..results.stress.point_stress import OF_GRAINS, OF_TRIANGLES
 from ..specimens import mineral_map
 from ..specimens.space.specimen import SolidSpecimen
-from ..specimens.specimen import Specimen, require_specimen
+from ..specimens.specimen import AnySpecimen, Specimen, require_specimen
 from ..threads import limited
 from . import spheres
 from .assembly import assembled, constants, fitted, grains_of
@@ -158,7 +158,7 @@ class Model:
         """Numbers of grains, particles, contacts, nodes and triangles, by name."""
         return self.solver.counts()
 
-    def snapshot(self) -> Snapshot | SolidSnapshot:
+    def snapshot(self) -> AnySnapshot:
         """The present state as plain arrays."""
         found: Table = {**self.solver.snapshot(), **self.of_snapshots}
         return Snapshot(**found)
@@ -173,16 +173,22 @@ class Model:
         """Name and parameters of the material, of minerals also the area that they have."""
         return mineral_map.describe(self.specimen, self.material, self.name, self.minerals)
 
-    def parting(self, state: Snapshot | SolidSnapshot) -> tuple[int | None, float]:
+    def parting(self, state: AnySnapshot) -> tuple[int | None, float]:
         """Loose grains, and how far any has parted from a neighbour, see `GrainSolver.parting`.
 
         The second is the growth of a distance of centres, in mean diameters of the grains [-]. The
         present state is given by who has it: that of a large solid takes gigabytes.
         """
-        if isinstance(state, SolidSnapshot):  # its contacts never end: what is loose is not known
-            return None, state.parting / self.specimen.mean_diameter
+        apart = state.parting
+        if apart is not None:  # of a solid, whose contacts never end: no grain is known to be loose
+            return None, apart / self.specimen.mean_diameter
         found = self.solver.parting()
         return found["loose"], found["any"] / self.specimen.mean_diameter
+
+    @property
+    def largest_overlap(self) -> float | None:
+        """Deepest overlap of grains of a solid over the mean diameter [-]; None in 2D."""
+        return None
 
     @property
     def joint_bend(self) -> float | None:
@@ -202,6 +208,11 @@ class SolidModel(Model):
         else:
             yade.O.dt = 1.0
             self.solver.scaleMasses()
+
+    @property
+    def largest_overlap(self) -> float | None:
+        """Deepest overlap of grains over the mean diameter [-]."""
+        return float(self.solver.overlaps()["of_diameter"])
 
     def snapshot(self) -> SolidSnapshot:
         """The present state as plain arrays."""
@@ -227,7 +238,7 @@ def _build_solid(
 
 
 def build(
-    specimen: Specimen | SolidSpecimen,
+    specimen: AnySpecimen,
     material: Material | str | None = None,
     model: str = "flexible",
     *,
@@ -280,12 +291,11 @@ def build(
     points = int(points)  # numpy's integers are no integers for the kernel
     damping = local_damping(damping, dynamic=dynamic)
     threads = require_threads("build: threads", threads)
-    if isinstance(specimen, SolidSpecimen):
+    require_specimen("build", specimen)
+    if is_solid(specimen.kind):
         _refuse_plane("build", points=points, mesh=mesh, gravity=gravity)
         if dynamic and model in SPHERE_MODELS:
             raise refused(f"build: dynamic = True, must be False for {model} of a solid", "dynamic")
-    else:
-        require_specimen("build", specimen)
     if model in SPHERE_MODELS:
         specimen.spec.require_discs(model)
         return spheres.build(
@@ -320,7 +330,7 @@ def build(
 
 
 def elastic(
-    specimen: Specimen | SolidSpecimen,
+    specimen: AnySpecimen,
     material: Material | str | None = None,
     model: str = "flexible",
     *,
@@ -344,10 +354,10 @@ def elastic(
         SimulationError: if the forces of a solid do not come to balance.
     """
     require_one_of("build: model", model, GRAIN_MODELS)
+    require_specimen("elastic", specimen)
     if isinstance(specimen, SolidSpecimen):
         _refuse_plane("elastic", points=points, mesh=mesh)
         return elastic_of_solid(specimen, load_material(material, model, solid=True), model)
-    require_specimen("elastic", specimen)
     grains = grains_of(specimen, model, points, mesh)
     chosen = fitted(specimen, grains, load_material(material, model), model)
     solver = assembled(grains, chosen)

@@ -34,7 +34,7 @@ from ..materials.material import Law, Material
 from ..materials.mixing import description, mineral_materials, pair_materials
 from ..specimens.mineral_map import minerals_of
 from ..specimens.space.specimen import SolidSpecimen
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import AnySpecimen, Specimen
 from .sphere_faces import Faces, outer_faces, shared_faces
 
 #: Smallest part of a disc or sphere that may be left of it between outline and neighbours [-].
@@ -72,7 +72,7 @@ class Laws:
         return float(np.mean(self.of_grains(key)))
 
 
-def laws_of(specimen: Specimen | SolidSpecimen, material: Material, model: str) -> Laws:
+def laws_of(specimen: AnySpecimen, material: Material, model: str) -> Laws:
     """Effective parameters of the minerals of a specimen and of their pairs.
 
     Raises:
@@ -121,9 +121,7 @@ def in_order(values: Iterable[float]) -> float:
     return reduce(operator.add, values, 0.0)
 
 
-def bonds_of(
-    specimen: Specimen | SolidSpecimen, laws: Laws, interaction_range: float | None = None
-) -> Bonds:
+def bonds_of(specimen: AnySpecimen, laws: Laws, interaction_range: float | None = None) -> Bonds:
     """Bonds of a specimen.
 
     Args:
@@ -139,6 +137,7 @@ def bonds_of(
     grains, ends = edges[:, :2], np.array(cells.vertices)[edges[:, 2:4]]
     if interaction_range is not None:
         farther = _farther_pairs(specimen, grains, interaction_range)
+        farther = farther[~_meet_outline(specimen, specimen.centres[farther])]
         grains = np.concatenate((grains, farther))
         ends = np.concatenate((ends, _edges_across(specimen, farther)))
     lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
@@ -179,10 +178,8 @@ def _bonds(laws: Laws, grains: IntArray, ends: FloatArray, areas: FloatArray) ->
     )
 
 
-def _farther_pairs(
-    specimen: Specimen | SolidSpecimen, bonded: IntArray, interaction_range: float
-) -> IntArray:
-    """Pairs of discs within a range that share no edge, and see each other inside the outline."""
+def _farther_pairs(specimen: AnySpecimen, bonded: IntArray, interaction_range: float) -> IntArray:
+    """Pairs of discs or spheres within a range that share no edge or face."""
     from scipy.spatial import cKDTree
 
     centres, radii = specimen.centres, specimen.radii
@@ -193,10 +190,7 @@ def _farther_pairs(
     near = apart < interaction_range * radii[pairs].sum(axis=1)
     known = {(min(pair), max(pair)) for pair in bonded.tolist()}
     new = np.array([tuple(pair) not in known for pair in pairs.tolist()], dtype=bool)
-    pairs = pairs[near & new]
-    found: IntArray = pairs
-    if not isinstance(specimen, SolidSpecimen):  # convex: no line between two centres leaves it
-        found = pairs[~_meet_outline(specimen, centres[pairs])]
+    found: IntArray = pairs[near & new]
     return found
 
 
@@ -246,7 +240,7 @@ def _discs_across(specimen: SolidSpecimen, pairs: IntArray) -> Faces:
     return Faces(pairs, gap, areas, 0.5 * areas * smaller**2)
 
 
-def tributary_sizes(specimen: Specimen | SolidSpecimen, side: int) -> dict[int, float]:
+def tributary_sizes(specimen: AnySpecimen, side: int) -> dict[int, float]:
     """Length [m], of a solid area [m2], of the specimen's side that belongs to each grain.
 
     Args:
@@ -271,7 +265,7 @@ def tributary_sizes(specimen: Specimen | SolidSpecimen, side: int) -> dict[int, 
     return lengths
 
 
-def separate_radii(specimen: Specimen | SolidSpecimen) -> FloatArray:
+def separate_radii(specimen: AnySpecimen) -> FloatArray:
     """Radii [m] shrunk, disc by disc, until no two overlap and none leaves a rectangle or solid.
 
     CohFrict forgets the reference distance of a bond that breaks: discs that overlapped then would
@@ -290,13 +284,7 @@ def separate_radii(specimen: Specimen | SolidSpecimen) -> FloatArray:
     for column in (0, 1):
         np.minimum.at(factor, pairs[:, column], share)
     shrunk: FloatArray = factor * radii
-    if isinstance(specimen, SolidSpecimen):
-        x, y, z = centres.T
-        away = [d - (a * x + b * y + c * z) for a, b, c, d in specimen.outline().walls.tolist()]
-        shrunk = np.minimum(shrunk, np.min(away, axis=0))
-    elif specimen.kind == "rectangle" and isinstance(specimen.outline, np.ndarray):
-        low, high = specimen.outline.min(axis=0), specimen.outline.max(axis=0)
-        shrunk = np.minimum(shrunk, np.minimum(centres - low, high - centres).min(axis=1))
+    shrunk = np.minimum(shrunk, specimen.wall_distances())
     least = int(np.argmin(shrunk))
     if not shrunk[least] > SMALLEST_SPHERE * radii[least]:
         raise InputError(
@@ -346,7 +334,7 @@ def stiffness_bounds(
 
 
 def touched_bounds(
-    specimen: Specimen | SolidSpecimen,
+    specimen: AnySpecimen,
     radii: FloatArray,
     bonds: Bonds,
     stiffness: FloatArray,

@@ -17,8 +17,7 @@ from yade import log, wrapper
 
 from ..arrays import FloatArray
 from ..materials.material import Law
-from ..specimens.space.specimen import SolidSpecimen
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import AnySpecimen
 from .sphere_bonds import Bonds, in_order, separate_radii
 
 #: Plates are this much stiffer than spheres, so that a sphere's own stiffness rules [-].
@@ -42,7 +41,7 @@ class SphereLaw(ABC):
     bending: ClassVar[bool]  #: whether bonds resist bending
 
     @abstractmethod
-    def radii(self, specimen: Specimen | SolidSpecimen) -> FloatArray:
+    def radii(self, specimen: AnySpecimen) -> FloatArray:
         """Radii of the spheres [m]."""
 
     @abstractmethod
@@ -120,7 +119,7 @@ class Jcfpm(SphereLaw):
     name = "jcfpm"
     bending = False
 
-    def radii(self, specimen: Specimen | SolidSpecimen) -> FloatArray:
+    def radii(self, specimen: AnySpecimen) -> FloatArray:
         """Radii of the discs [m]."""
         return specimen.radii
 
@@ -191,7 +190,7 @@ class Cohfrict(SphereLaw):
     name = "cohfrict"
     bending = True
 
-    def radii(self, specimen: Specimen | SolidSpecimen) -> FloatArray:
+    def radii(self, specimen: AnySpecimen) -> FloatArray:
         """Radii of the discs, shrunk until no two overlap [m]."""
         return separate_radii(specimen)
 

@@ -21,16 +21,16 @@ from yade import utils, wrapper
 
 from .._flexpm import mass_margin, set_engines
 from ..arrays import FloatArray, IntArray
+from ..dimensions import is_solid
 from ..errors import InputError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.material import load as load_material
 from ..require import require_one_of
-from ..results.snapshot import Snapshot
-from ..results.solids.state import SolidSnapshot
+from ..results.solids.state import AnySnapshot
 from ..specimens.mineral_map import describe
 from ..specimens.space.specimen import SolidSpecimen
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import AnySpecimen
 from ..threads import limited
 from .collider import collider
 from .options import SPHERE_MODELS
@@ -66,7 +66,7 @@ class SphereModel:
         dynamic: Real masses and a time step in seconds.
     """
 
-    specimen: Specimen | SolidSpecimen
+    specimen: AnySpecimen
     material: Material
     kind: SphereLaw
     laws: Laws
@@ -176,7 +176,7 @@ class SphereModel:
         """Along which it is loaded: y in the plane, z in space."""
         return self.specimen.centres.shape[1] - 1
 
-    def snapshot(self) -> Snapshot | SolidSnapshot:
+    def snapshot(self) -> AnySnapshot:
         """The present state as plain arrays."""
         self.cracks.look()
         self.cracks.look_for_erased()
@@ -220,8 +220,7 @@ class SphereModel:
                 carries.
         """
         stiffness = self.laws.of_grains("normal_stiffness")
-        if not isinstance(self.specimen, SolidSpecimen):
-            stiffness = stiffness * self.specimen.thickness
+        stiffness = stiffness * self.specimen.side_depth
         for grain, length in tributary.items():
             contact = utils.createInteraction(plate, self.ids[grain])
             contact.phys.kn = float(stiffness[grain]) * length
@@ -254,7 +253,7 @@ class SphereModel:
 
 
 def build(
-    specimen: Specimen | SolidSpecimen,
+    specimen: AnySpecimen,
     material: Material | str | None,
     model: str,
     *,
@@ -283,7 +282,7 @@ def build(
             bonds.
     """
     require_one_of("build: model", model, SPHERE_MODELS)
-    chosen = load_material(material, model, solid=isinstance(specimen, SolidSpecimen))
+    chosen = load_material(material, model, solid=is_solid(specimen.kind))
     laws, kind = laws_of(specimen, chosen, model), LAWS[model]
     bonds, radii = bonds_of(specimen, laws, interaction_range), kind.radii(specimen)
     if not len(bonds.areas):
@@ -303,12 +302,12 @@ def build(
     masses, inertias = factor * bounds[0], factor * bounds[1]
     yade.O.dt = 1.0
     real_masses = False
-    if dynamic and not isinstance(specimen, SolidSpecimen):
+    if dynamic:
         real_masses = True
         real = _real_masses(specimen, laws.of_grains("density"))
         yade.O.dt = math.sqrt(float(min(np.min(real[0] / masses), np.min(real[1] / inertias))))
         masses, inertias = real
-    _set_masses(ids, masses, inertias, "" if isinstance(specimen, SolidSpecimen) else "zXY")
+    _set_masses(ids, masses, inertias, "" if is_solid(specimen.kind) else "zXY")
     functor, engines = _engines(specimen, kind, damping)
     set_engines(engines)
     built = SphereModel(specimen, chosen, kind, laws, bonds, functor, engines, plate_material, ids)
@@ -340,9 +339,9 @@ def _add_materials(
     return spheres, yade.O.materials.append(plate)
 
 
-def _real_masses(specimen: Specimen, density: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _real_masses(specimen: AnySpecimen, density: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Masses [kg] of the cells, and moments of inertia [kg m2] of discs of the cells' areas."""
-    areas = np.array(specimen.tessellation.cell_areas)
+    areas = np.array(specimen.cell_sizes)
     masses = density * areas * specimen.thickness
     return masses, 0.5 * masses * areas / math.pi
 
@@ -355,7 +354,7 @@ def _set_masses(ids: list[int], masses: FloatArray, inertias: FloatArray, blocke
 
 
 def _engines(
-    specimen: Specimen | SolidSpecimen, kind: SphereLaw, damping: float
+    specimen: AnySpecimen, kind: SphereLaw, damping: float
 ) -> tuple[wrapper.Functor, list[wrapper.Engine]]:
     functors = kind.functors()
     # shear displacements then have the levers that the moments have; else YADE scales them by the

@@ -22,9 +22,8 @@ from ..kinds.registry import kind_of
 from ..results.arrays.vtu_arrays import GRAIN
 from ..results.cracks import MODES
 from ..results.result import Result
-from ..results.snapshot import Snapshot
-from ..results.solids.state import SolidSnapshot
-from ..results.vtu import principal_stresses, read_state
+from ..results.solids.state import AnySnapshot
+from ..results.vtu import read_state
 from .style import COLOURS, MODE_NAMES, can_be_drawn
 from .tables import size_text, test_text
 
@@ -187,14 +186,10 @@ def write_state(path: Path, result: Result, frames: Sequence[tuple[Path, int, fl
     write_text(path, state.text())
 
 
-def _colours_of(snapshot: Snapshot | SolidSnapshot, test: str) -> _Colours:
+def _colours_of(snapshot: AnySnapshot, test: str) -> _Colours:
     """What colours grains at the largest stress: rigid ones of the plane have none of their own."""
-    if isinstance(snapshot, SolidSnapshot):
-        smaller, _, larger = snapshot.principal_stresses.T
-        smallest = "principal_stress_3"
-    else:
-        larger, smaller = principal_stresses(snapshot.triangle_stress)
-        smallest = "principal_stress_2"
+    smaller, larger = snapshot.extreme_stresses
+    smallest = f"principal_stress_{len(snapshot.positions.T)}"
     moved = np.hypot.reduce(snapshot.positions - snapshot.reference, axis=1)
     if not (np.any(larger) or np.any(smaller)):
         end = float(np.percentile(moved, _END)) or 1.0

@@ -21,7 +21,7 @@ from ..errors import InputError
 from ..require import quoted, require_one_of
 from ..results.fragments import Fragments
 from ..results.snapshot import Snapshot
-from ..results.solids.state import SolidSnapshot
+from ..results.solids.state import AnySnapshot
 from ..results.stress.point_stress import OF_GRAINS
 from ..results.stress.tensors import principal_stresses as principal_stresses
 from ..text import label_of
@@ -50,9 +50,7 @@ DISPLACEMENTS = {
 _COVERED = 0.99
 
 
-def cracks(
-    snapshot: Snapshot | SolidSnapshot, path: Path | str | None = None, *, caption: str = ""
-) -> Figure:
+def cracks(snapshot: AnySnapshot, path: Path | str | None = None, *, caption: str = "") -> Figure:
     """Draw the deformed grains with their cracks by mode.
 
     Args:
@@ -68,7 +66,7 @@ def cracks(
 
 
 def fragments(
-    snapshot: Snapshot | SolidSnapshot, path: Path | str | None = None, *, caption: str = ""
+    snapshot: AnySnapshot, path: Path | str | None = None, *, caption: str = ""
 ) -> Figure:
     """Draw the deformed grains in the colour of their fragment; see `cracks`."""
     snapshot, of = _drawn("fragments", snapshot)
@@ -76,7 +74,7 @@ def fragments(
 
 
 def stress(
-    snapshot: Snapshot | SolidSnapshot,
+    snapshot: AnySnapshot,
     component: str = "yy",
     path: Path | str | None = None,
     *,
@@ -118,7 +116,7 @@ def stress(
 
 
 def displacement(
-    snapshot: Snapshot | SolidSnapshot,
+    snapshot: AnySnapshot,
     component: str = "size",
     path: Path | str | None = None,
     *,
@@ -152,18 +150,17 @@ def displacement(
 
 def _drawn(name: str, state: object) -> tuple[Snapshot, Fragments]:
     """What is drawn of a state, the section of a solid, and the fragments of all of it."""
-    if isinstance(state, SolidSnapshot):
-        return _drawn(name, state.section)[0], state.fragments
-    if not isinstance(state, Snapshot):
+    if not isinstance(state, AnySnapshot):
         raise InputError(
             f"plot.{name}: snapshot = {quoted(state)}, must be a state, `built.snapshot()`"
         )
-    if not can_be_drawn(state.positions):
+    drawn = state.drawn
+    if not can_be_drawn(drawn.positions):
         raise InputError(
             f"plot.{name}: places of the state = none that can be drawn, must be finite numbers; "
             "the run has diverged"
         )
-    return state, state.fragments
+    return drawn, state.fragments
 
 
 def _draw_scale(figure: Figure, axes: Axes, drawn: ScalarMappable, label: str) -> None:

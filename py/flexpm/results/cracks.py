@@ -20,8 +20,8 @@ from ..errors import InputError
 from ..files import csv_text, load_csv
 from .heights import with_heights, without_heights
 from .record import Curve
-from .snapshot import Snapshot, numbers_within
-from .solids.state import SolidSnapshot
+from .snapshot import numbers_within
+from .solids.state import AnySnapshot
 
 
 class CrackMode(IntEnum):
@@ -138,7 +138,7 @@ def count_by_pair(cracks: Sequence[AnyCrack]) -> dict[str, dict[str, int]] | Non
 
 
 def count_softened_by_pair(
-    snapshot: Snapshot | SolidSnapshot, cracks: Sequence[AnyCrack], minerals: Sequence[str]
+    snapshot: AnySnapshot, cracks: Sequence[AnyCrack], minerals: Sequence[str]
 ) -> dict[str, int] | None:
     """Points of each pair of minerals that have begun to soften; None if all grains are alike.
 
@@ -158,7 +158,7 @@ def count_softened_by_pair(
 
 
 def cracks_from_snapshot(
-    snapshot: Snapshot | SolidSnapshot, curve: Curve, minerals: Sequence[str] = ()
+    snapshot: AnySnapshot, curve: Curve, minerals: Sequence[str] = ()
 ) -> list[AnyCrack]:
     """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`.
 
@@ -206,12 +206,12 @@ def _at_heights(found: list[Crack], heights: Sequence[float | None]) -> list[Any
     ]
 
 
-def _pairs(snapshot: Snapshot | SolidSnapshot, minerals: Sequence[str], count: int) -> list[str]:
+def _pairs(snapshot: AnySnapshot, minerals: Sequence[str], count: int) -> list[str]:
     """Names of both minerals of each bond with a record, in the order of ``_records``."""
     if not minerals or snapshot.grain_mineral is None:
         return [""] * count
     grains = snapshot.contact_grains
-    if isinstance(snapshot, Snapshot) and snapshot.erased_grains is not None:
+    if snapshot.erased_grains is not None:
         grains = np.concatenate([grains, snapshot.erased_grains])
     kinds = snapshot.grain_mineral[grains].tolist()
     return ["/".join(sorted(minerals[kind] for kind in pair)) for pair in kinds]
@@ -229,7 +229,7 @@ class _Records(NamedTuple):
     energies: FloatArray
 
 
-def _records(snapshot: Snapshot | SolidSnapshot) -> _Records:
+def _records(snapshot: AnySnapshot) -> _Records:
     """All bonds, those that exist before those that are erased."""
     exist = _Records(
         snapshot.contact,
@@ -241,8 +241,7 @@ def _records(snapshot: Snapshot | SolidSnapshot) -> _Records:
         _energies(snapshot.crack_energy, snapshot.crack_step),
     )
     if (
-        isinstance(snapshot, SolidSnapshot)
-        or snapshot.erased_contact is None
+        snapshot.erased_contact is None
         or snapshot.erased_point_bond is None
         or snapshot.erased_crack_step is None
         or snapshot.erased_crack_mode is None

@@ -19,8 +19,7 @@ from .cracks import MODES, AnyCrack, cracks_csv, read_cracks
 from .emission import AnyEvent, EventRule, events_csv, find_events, frequencies, read_events
 from .record import Curve
 from .result_checks import FINISHED, require_sense
-from .snapshot import Snapshot
-from .solids.state import SolidSnapshot
+from .solids.state import AnySnapshot
 
 #: Statuses that mean that a simulation has failed.
 FAILED = ("no_peak", "diverged")
@@ -132,7 +131,7 @@ class Result(Shown):
     curve: Curve = field(default_factory=Curve, repr=False)
     cracks: list[AnyCrack] = field(default_factory=list, repr=False)
     emission: list[AnyEvent] | None = field(default=None, repr=False)  #: events, where known
-    snapshot: Snapshot | SolidSnapshot | None = field(default=None, repr=False)  #: final state
+    snapshot: AnySnapshot | None = field(default=None, repr=False)  #: final state
     resumed_at: int | None = field(default=None, repr=False)  #: step of the checkpoint used
 
     @property
@@ -289,7 +288,7 @@ class Result(Shown):
         """
         setattr(self, waves.name_of(wave), waves.speed(self.curve, distance))
 
-    def measure_fragments(self, snapshot: Snapshot | SolidSnapshot) -> None:
+    def measure_fragments(self, snapshot: AnySnapshot) -> None:
         """Keep the final state and count what hangs together in it."""
         found = snapshot.fragments
         self.snapshot = snapshot
@@ -372,13 +371,10 @@ class Result(Shown):
         if self.emission is not None:
             write_text(folder / "events.csv", events_csv(self.emission))
         if self.snapshot is not None:
-            write_text(folder / "fragments.csv", self.snapshot.fragments.csv(_size(self.snapshot)))
+            write_text(
+                folder / "fragments.csv", self.snapshot.fragments.csv(self.snapshot.size_name)
+            )
         write_text(folder / name, json_text(self.as_dict()))
-
-
-def _size(snapshot: Snapshot | SolidSnapshot) -> str:
-    """What fragments are measured by."""
-    return "volume" if isinstance(snapshot, SolidSnapshot) else "area"
 
 
 def _plain(value: object) -> object:

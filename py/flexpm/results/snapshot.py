@@ -16,7 +16,7 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from ..require import Bounds, require_flag, require_whole
 from .fragments import Fragments, connected
 from .stress.point_stress import OF_TRIANGLES, PointStress, require_points, stress_of_points
-from .stress.tensors import means_by
+from .stress.tensors import means_by, principal_stresses
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +60,21 @@ class Snapshot:
     erased_crack_position: FloatArray | None = None  #: (R, 2) [m]
     erased_crack_energy: FloatArray | None = None  #: (R,) [J]
     stress_source: str = OF_TRIANGLES  #: what the stress of a triangle is: its own, or its grain's
+
+    size_name = "area"  #: what its fragments are measured by
+    elements = None  #: number of tetrahedra, of a solid
+    parting = None  #: largest growth of a distance of bonded grains, of a solid [m]
+
+    @property
+    def drawn(self) -> Snapshot:
+        """The state that maps draw: itself."""
+        return self
+
+    @property
+    def extreme_stresses(self) -> tuple[FloatArray, FloatArray]:
+        """Smaller and larger principal stress of each triangle [Pa]."""
+        larger, smaller = principal_stresses(self.triangle_stress)
+        return smaller, larger
 
     @cached_property
     def fragments(self) -> Fragments:

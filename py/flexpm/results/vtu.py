@@ -41,7 +41,7 @@ from .arrays.vtu_arrays import (
 from .arrays.vtu_arrays import UNITS as UNITS
 from .arrays.vtu_reader import Arrays, Grid, grid_of
 from .snapshot import Snapshot, triangle_areas
-from .solids.state import SolidSnapshot
+from .solids.state import AnySnapshot, SolidSnapshot
 from .solids.vtu import state_of_grid, write_solid_state
 from .stress.tensors import means_by
 from .stress.tensors import principal_stresses as principal_stresses  # scripts know it here
@@ -55,7 +55,7 @@ _SHARES = {1: (1.0,), 2: (0.5, 0.5), 3: (1 / 6, 4 / 6, 1 / 6)}
 
 def write_vtu(
     path: Path | str,
-    snapshot: Snapshot | SolidSnapshot,
+    snapshot: AnySnapshot,
     about: Mapping[str, object] | None = None,
 ) -> None:
     """Write `snapshot` as one VTK unstructured grid, whole or not at all.
@@ -97,11 +97,10 @@ def read_vtu(path: Path | str) -> Snapshot:
     Raises:
         InputError: if the file cannot be read or is no such file.
     """
-    found = read_state(path)
-    return found.section if isinstance(found, SolidSnapshot) else found
+    return read_state(path).drawn
 
 
-def read_state(path: Path | str) -> Snapshot | SolidSnapshot:
+def read_state(path: Path | str) -> AnySnapshot:
     """The same, of a solid its whole state; points of a contact are alike there.
 
     Raises:

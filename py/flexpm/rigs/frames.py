@@ -21,8 +21,7 @@ from ..errors import InputError
 from ..files import Table, csv_text, load_csv, write_text
 from ..require import quoted
 from ..results.result import Result
-from ..results.snapshot import Snapshot
-from ..results.solids.state import SolidSnapshot
+from ..results.solids.state import AnySnapshot
 from ..results.vtu import write_vtu
 from .rig import TestRig
 
@@ -56,10 +55,10 @@ class LastState(NamedTuple):
     step: int
     axial_strain: float  #: [-]
     axial_stress: float  #: [Pa]
-    snapshot: Snapshot | SolidSnapshot | None  #: None: the test has diverged
+    snapshot: AnySnapshot | None  #: None: the test has diverged
 
     @classmethod
-    def of(cls, rig: TestRig, snapshot: Snapshot | SolidSnapshot | None = None) -> LastState:
+    def of(cls, rig: TestRig, snapshot: AnySnapshot | None = None) -> LastState:
         """That of a rig whose scene is there.
 
         Args:
@@ -99,7 +98,7 @@ class FrameWriter:
         self._confinement: float = memory.get("confinement", 0.0)
         #: frame below the peak, which is listed once the stress falls; its state, if not written
         self._peak: Frame | None = None
-        self._peak_state: Snapshot | SolidSnapshot | None = None
+        self._peak_state: AnySnapshot | None = None
         if peak := memory.get("peak"):
             self._peak = _known([peak])[0]
         self._growing: float = memory.get("growing", 0.0)
@@ -200,12 +199,12 @@ class FrameWriter:
             (self._folder / peak.file).unlink(missing_ok=True)
         self._peak = self._peak_state = None
 
-    def _write(self, frame: Frame, snapshot: Snapshot | SolidSnapshot) -> None:
+    def _write(self, frame: Frame, snapshot: AnySnapshot) -> None:
         if all(one.step != frame.step for one in self.frames):
             self._write_state(frame, snapshot)
             self._add(frame)
 
-    def _write_state(self, frame: Frame, snapshot: Snapshot | SolidSnapshot) -> None:
+    def _write_state(self, frame: Frame, snapshot: AnySnapshot) -> None:
         about = {name: value for name, value in frame._asdict().items() if name != "file"}
         write_vtu(self._folder / frame.file, snapshot, {**self._about, **about})
 

@@ -13,7 +13,6 @@ import yade
 from ..arrays import FloatArray
 from ..models.sphere_bonds import in_order, tributary_sizes
 from ..models.spheres import SphereModel
-from ..specimens.kernel_input import Circle
 from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 from .rig import BOTTOM, TOP
@@ -52,14 +51,6 @@ def _set_speed(built: SphereModel, body: int, speed: float) -> None:
     state.vel = (vel[0], speed, 0.0) if built.axis == 1 else (vel[0], vel[1], speed)
 
 
-def heights(specimen: Specimen | SolidSpecimen) -> tuple[float, float]:
-    """Heights of the lower and the upper end of a rectangle or a solid [m]."""
-    if isinstance(specimen, SolidSpecimen):
-        return 0.0, specimen.dimensions["height"]
-    assert not isinstance(specimen.outline, Circle)
-    return float(specimen.outline[:, 1].min()), float(specimen.outline[:, 1].max())
-
-
 def section(specimen: SolidSpecimen) -> float:
     """Area across the axis of a solid [m2]."""
     return specimen.outline().volume / specimen.dimensions["height"]
@@ -92,7 +83,7 @@ def close_grips(built: SphereModel) -> None:
 
 def squeeze_ends(built: SphereModel, pressure: float | None) -> None:
     """Put plates on bottom and top; they take over the pressure [Pa] of a rectangle, if any."""
-    faces = heights(built.specimen)
+    faces = built.specimen.heights
     for side, face, sense in ((BOTTOM, faces[0], -1), (TOP, faces[1], 1)):
         lengths = tributary_sizes(built.specimen, side)
         ways = [built.state_of(built.ids[grain]).displ()[built.axis] for grain in lengths]
@@ -129,7 +120,7 @@ def strain_evenly(built: SphereModel, velocity: float) -> None:
         built: A rectangle or a solid.
         velocity: Velocity of its upper end, positive away from the lower one [m/s, or m per step].
     """
-    bottom, top = heights(built.specimen)
+    bottom, top = built.specimen.heights
     for body, y in zip(built.ids, built.specimen.centres[:, built.axis].tolist(), strict=True):
         _set_speed(built, body, velocity * (y - bottom) / (top - bottom))
 

@@ -109,7 +109,7 @@ class SphereRig(TestRig):
             self._area = sizes["width"] * specimen.thickness
             sides = (tributary_sizes(specimen, side).items() for side in (LEFT, RIGHT))
             self._gauge = StrainGauge(
-                ends.heights(specimen)[0], self._height, specimen.mean_diameter, *sides
+                specimen.heights[0], self._height, specimen.mean_diameter, *sides
             )
         self._take_up()
 

@@ -15,7 +15,6 @@ from ..kinds.test_kind import TestKind
 from ..materials.mixing import is_brittle
 from ..models.options import DAMPING, GRAIN_MODELS, local_damping
 from ..specimens.space.any_spec import AnySpec
-from ..specimens.space.spec import SolidSpec
 from .groups import GrainOptions, LoadingOptions, TestOptions
 from .loading_rate import WAITING_MODELS
 
@@ -66,7 +65,7 @@ class RunInputs(TestOptions, LoadingOptions, GrainOptions, Tested):
     @property
     def has_edge_normals(self) -> bool:
         """Whether bonds have the normals of their edges: of cells other than Laguerre's (D104)."""
-        if isinstance(self.specimen, SolidSpec) or self.model not in BLOCK_MODELS:
+        if self.is_solid or self.model not in BLOCK_MODELS:
             return False
         notched = self.kind.cut is not None and bool(self.options["notch"])
         return notched or not self.specimen.is_laguerre

@@ -12,9 +12,7 @@ from ..errors import InputError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.mixing import description
-from .space.notch import NotchedSolid
-from .space.specimen import SolidSpecimen
-from .specimen import Specimen
+from .specimen import AnySpecimen
 
 #: Keeps the draw of minerals apart from other draws with the same seed.
 _STREAM = 27
@@ -43,7 +41,7 @@ def assign(fractions: Sequence[float], areas: FloatArray, seed: int) -> IntArray
     return found
 
 
-def minerals_of(specimen: Specimen | SolidSpecimen, material: Material) -> IntArray | None:
+def minerals_of(specimen: AnySpecimen, material: Material) -> IntArray | None:
     """Index of the mineral of each grain, or None for a rock of one kind of grain.
 
     Taken from the specimen if it says so, else drawn with the specimen's seed (0 if it has none).
@@ -52,8 +50,8 @@ def minerals_of(specimen: Specimen | SolidSpecimen, material: Material) -> IntAr
         InputError: if the specimen has more minerals than the material, or names one that the
             material has at another place.
     """
-    if isinstance(specimen, NotchedSolid):  # pieces of a grain are of its mineral
-        before = minerals_of(specimen.before, material)
+    if specimen.before is not None and specimen.parents is not None:
+        before = minerals_of(specimen.before, material)  # pieces of a grain are of its mineral
         return None if before is None else np.ascontiguousarray(before[specimen.parents])
     given, count = specimen.minerals, len(material.minerals)
     if given is not None and (count == 0 or given.max() >= count):
@@ -74,8 +72,8 @@ def minerals_of(specimen: Specimen | SolidSpecimen, material: Material) -> IntAr
                 )
         return given
     fractions = [mineral.fraction for mineral in material.minerals]
-    areas = _sizes(specimen)
-    if isinstance(specimen, SolidSpecimen) or specimen.grains is None:
+    areas = specimen.cell_sizes
+    if specimen.grains is None:
         return assign(fractions, areas, specimen.seed or 0)
     # pieces of a grain are of its mineral
     found = assign(fractions, np.bincount(specimen.grains, areas).astype(float), specimen.seed or 0)
@@ -83,22 +81,15 @@ def minerals_of(specimen: Specimen | SolidSpecimen, material: Material) -> IntAr
     return whole
 
 
-def size_fractions(specimen: Specimen | SolidSpecimen, found: IntArray, count: int) -> list[float]:
+def size_fractions(specimen: AnySpecimen, found: IntArray, count: int) -> list[float]:
     """Fraction of the area, or of the volume, that each of `count` minerals has [-]."""
-    areas = _sizes(specimen)
+    areas = specimen.cell_sizes
     found_areas = np.bincount(found, weights=areas, minlength=count)
     return [float(area) for area in found_areas / areas.sum()]
 
 
-def _sizes(specimen: Specimen | SolidSpecimen) -> FloatArray:
-    """Area of each cell [m2], or volume of a solid's [m3]."""
-    if isinstance(specimen, SolidSpecimen):
-        return specimen.cells.volumes
-    return np.asarray(specimen.tessellation.cell_areas)
-
-
 def describe(
-    specimen: Specimen | SolidSpecimen,
+    specimen: AnySpecimen,
     material: Material,
     model: str,
     minerals: IntArray | None,
@@ -114,7 +105,7 @@ def describe(
     found: Table = {"name": material.name, **description(material, model)}
     if minerals is not None:
         kinds = found["minerals"]
-        name = "volume_fraction" if isinstance(specimen, SolidSpecimen) else "area_fraction"
+        name = f"{specimen.size_name}_fraction"
         for kind, part in zip(kinds, size_fractions(specimen, minerals, len(kinds)), strict=True):
             kind[name] = part
     return found

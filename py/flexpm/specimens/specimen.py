@@ -12,7 +12,7 @@ import numpy as np
 
 from .._flexpm import GrainMeshes, Tessellation, grain_meshes
 from ..arrays import FloatArray, IntArray
-from ..errors import InputError
+from ..errors import InputError, SimulationError
 from ..files import Table
 from ..joints import geojson
 from ..joints.bend import largest_bend
@@ -365,6 +365,60 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         """Diameter of a disc of the specimen's area [m]."""
         return math.sqrt(4.0 / math.pi * float(np.sum(self.tessellation.cell_areas)))
 
+    size_name = "area"  #: what cells are measured by
+    #: The specimen before notches of a test have cut its cells; a cut along joints is none.
+    before = None
+    parents = None
+    depth = None  #: along y [m], of a 3D specimen
+
+    @property
+    def cell_sizes(self) -> FloatArray:
+        """Area of each cell [m2]."""
+        return np.asarray(self.tessellation.cell_areas)
+
+    @property
+    def side_depth(self) -> float:
+        """Factor from a length along a side to its area [m]."""
+        return self.thickness
+
+    @property
+    def smallest_size(self) -> float:
+        """Smallest size of the box around it, or the diameter of a disc [m]."""
+        if isinstance(self.outline, Circle):
+            return self.dimensions["diameter"]
+        return float(np.min(np.ptp(self.outline, axis=0)))
+
+    @property
+    def corners(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Lower left and upper right corner of the rectangle around it [m].
+
+        Raises:
+            SimulationError: for a circle, which no test between parts takes.
+        """
+        if isinstance(self.outline, Circle):
+            raise SimulationError("outline = a circle, must be a polygon for a test between parts")
+        (left, bottom), (right, top) = self.outline.min(axis=0), self.outline.max(axis=0)
+        return (left, bottom), (right, top)
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """Heights of the lower and the upper end [m]."""
+        assert not isinstance(self.outline, Circle)
+        return float(self.outline[:, 1].min()), float(self.outline[:, 1].max())
+
+    def wall_distances(self) -> FloatArray:
+        """Distance of each centre from the nearest side of a rectangle [m], else infinite."""
+        if self.kind != "rectangle" or isinstance(self.outline, Circle):
+            return np.full(len(self.discs), np.inf)
+        low, high = self.outline.min(axis=0), self.outline.max(axis=0)
+        found: FloatArray = np.minimum(self.centres - low, high - self.centres).min(axis=1)
+        return found
+
+    def lines_of(self, joint: str) -> FloatArray:
+        """Ends (n, 2, 2) [m] of the contacts of a joint; none if it has no joint of that name."""
+        names = self.spec.joint_names or ()
+        return self.joint_lines()[names.index(joint)] if joint in names else np.empty((0, 2, 2))
+
     def meshes(self, mesh: str = "refined") -> GrainMeshes:
         """Mesh the grains.
 
@@ -404,15 +458,10 @@ AnySpecimen = Specimen | SolidSpecimen
 
 
 def require_specimen(where: str, given: object) -> None:
-    """Refuse what is no specimen of the plane.
+    """Refuse what is no specimen.
 
     Raises:
-        InputError: for a solid, and for anything else.
+        InputError: for anything else.
     """
-    if isinstance(given, SolidSpecimen):
-        raise InputError(
-            f"{where}: specimen = {given.kind}, must be plane; --shape of flexpm run tells what "
-            "solids are for"
-        )
-    if not isinstance(given, Specimen):
+    if not isinstance(given, AnySpecimen):
         raise InputError(f"{where}: specimen = {quoted(given)}, must be a Specimen")

@@ -16,7 +16,7 @@ from ..dimensions import is_solid
 from ..errors import InputError, SimulationError
 from ..files import Table, csv_text, output_folder, write_text
 from ..laboratory.carrying_out import carry_out
-from ..laboratory.plan import plan_run, require_tested
+from ..laboratory.plan import plan_run
 from ..materials.material import Material, default_name
 from ..materials.material import load as load_material
 from ..materials.references import Reference, reference_of
@@ -31,7 +31,7 @@ from ..runs.groups import SharedOptions, options_of
 from ..runs.input_names import ranges
 from ..runs.output import Output
 from ..runs.run_spec import RunSpec
-from ..specimens.specimen import AnySpecimen
+from ..specimens.specimen import AnySpecimen, require_specimen
 from ..text import name_of
 from .jobs import place_of
 
@@ -156,7 +156,7 @@ def compare(
     Raises:
         InputError: for an argument that is wrong for any of the runs.
     """
-    require_tested("compare", specimen)
+    require_specimen("compare", specimen)
     folder = None if out is None else output_folder(out)
     shared: Table = {name: value for name, value in options.items() if value is not None}
     report = bool(shared.pop("report", True))

@@ -19,7 +19,7 @@ from ...results.fragments import Fragments, connected
 from ...results.record import Curve
 from ...results.result import Result
 from ...results.snapshot import Snapshot
-from ...results.solids.state import SolidSnapshot
+from ...results.solids.state import AnySnapshot, SolidSnapshot
 from ..maps import MINERALS
 from ..words import words_of_result
 from .page import Map, rows_to_draw
@@ -36,7 +36,7 @@ _COLOURS = 7
 def crack_map(
     name: str,
     title: str,
-    specimen: Snapshot | SolidSnapshot,
+    specimen: AnySnapshot,
     result: Result,
     rows: IntArray | None = None,
     chart: str = "",
@@ -56,7 +56,7 @@ def crack_map(
         after: A solid after the test, for its stresses.
         turns: A solid has a view that turns, too.
     """
-    drawing = specimen.section if isinstance(specimen, SolidSnapshot) else specimen
+    drawing = specimen.drawn
     minerals = [kind["name"] for kind in result.material.get("minerals", ())]
     known = np.arange(len(result.curve)) if rows is None else rows
     chosen, at = _positions(result, known)
@@ -234,7 +234,7 @@ def _crack_paths(
     return [(mode, position, "".join(steps)) for (mode, position), steps in parts.items()]
 
 
-def _first_points(drawing: Snapshot | SolidSnapshot) -> dict[int, int]:
+def _first_points(drawing: AnySnapshot) -> dict[int, int]:
     """Row of the first point of each contact, by the number of the contact."""
     rows = np.flatnonzero(drawing.point_number == 0)
     return dict(
@@ -243,7 +243,7 @@ def _first_points(drawing: Snapshot | SolidSnapshot) -> dict[int, int]:
 
 
 def _fragments(
-    drawing: Snapshot | SolidSnapshot, cracks: Sequence[AnyCrack], at: IntArray, positions: int
+    drawing: AnySnapshot, cracks: Sequence[AnyCrack], at: IntArray, positions: int
 ) -> list[Fragments]:
     """Fragments at each position: grains hang together while a point of their contact holds."""
     left = drawing.point_damage < 1.0

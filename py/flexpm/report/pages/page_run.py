@@ -17,8 +17,7 @@ from ...results import measures
 from ...results.cracks import MODES, SHEAR, TENSILE
 from ...results.result import Result
 from ...results.result_checks import FINISHED, SO_FAR
-from ...results.snapshot import Snapshot
-from ...results.solids.state import SolidSnapshot
+from ...results.solids.state import AnySnapshot, SolidSnapshot
 from ...results.vtu import read_state
 from ...text import words_of
 from ..curves import fits_a_picture
@@ -262,7 +261,7 @@ def run_map(
         raise InputError("specimen.vtu = another one, must be that of cracks.csv") from None
 
 
-def _state_after(folder: Path, before: Snapshot | SolidSnapshot) -> SolidSnapshot | None:
+def _state_after(folder: Path, before: AnySnapshot) -> SolidSnapshot | None:
     """Last state of a solid; None if its file is gone, damaged or another solid's."""
     if not isinstance(before, SolidSnapshot):
         return None

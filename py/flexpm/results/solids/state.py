@@ -68,6 +68,27 @@ class SolidSnapshot:
         OF_TRIANGLES  #: what the stress of a tetrahedron is: its own or its grain's
     )
 
+    #: No bond of a solid is erased.
+    erased_contact = erased_grains = erased_point_bond = erased_crack_step = None
+    erased_crack_mode = erased_crack_position = erased_crack_energy = None
+    size_name = "volume"  #: what its fragments are measured by
+
+    @property
+    def drawn(self) -> Snapshot:
+        """The state that maps draw: the section."""
+        return self.section
+
+    @property
+    def elements(self) -> int | None:
+        """Number of tetrahedra."""
+        return len(self.tetrahedra)
+
+    @property
+    def extreme_stresses(self) -> tuple[FloatArray, FloatArray]:
+        """Smallest and largest principal stress of each tetrahedron [Pa]."""
+        smallest, _, largest = self.principal_stresses.T
+        return smallest, largest
+
     @property
     def contact(self) -> IntArray:
         """Number of each contact, which it keeps."""
@@ -228,9 +249,13 @@ class SolidSnapshot:
         return np.flatnonzero(twice), ends[:, _PLANE].reshape(-1, 2, 2)
 
 
-def drawn_state(state: Snapshot | SolidSnapshot | None) -> Snapshot | None:
+#: States of specimens of both dimensions.
+AnySnapshot = Snapshot | SolidSnapshot
+
+
+def drawn_state(state: AnySnapshot | None) -> Snapshot | None:
     """What maps draw of a state: itself, or the section of a solid."""
-    return state.section if isinstance(state, SolidSnapshot) else state
+    return None if state is None else state.drawn
 
 
 def _turned(triangles: IntArray, places: FloatArray) -> IntArray:

@@ -27,8 +27,7 @@ from ...report.words import turns_by
 from ...results import measures
 from ...results.cracks import MODES
 from ...results.result import Result
-from ...results.snapshot import Snapshot
-from ...results.solids.state import SolidSnapshot
+from ...results.solids.state import AnySnapshot
 from ...runs.asked import write_report
 from ...runs.loading_rate import WAITING_MODELS, rates_of
 from ...runs.output import BEGUN, RESULT, is_of_flexpm, refuse_other_kind
@@ -158,7 +157,7 @@ def _largest_unbalanced(rig: RigReadings, waiting: bool) -> float:
     return math.inf if ratio is None else ratio
 
 
-def lines_in(rig: RigReadings, snapshot: Snapshot | SolidSnapshot) -> tuple[list[int], list[int]]:
+def lines_in(rig: RigReadings, snapshot: AnySnapshot) -> tuple[list[int], list[int]]:
     """Numbers of the contacts of open joints, which no test has opened, and of other joints."""
     specimen = rig.built.specimen
     if specimen.edge_joints is None:

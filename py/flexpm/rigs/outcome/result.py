@@ -3,20 +3,17 @@
 
 from __future__ import annotations
 
-import numpy as np
 import yade
 from yade import wrapper
 
 from ..._version import __version__
 from ...kinds.registry import kind_of
-from ...models.grains import Model, SolidModel
+from ...models.grains import Model
 from ...results.cracks import count_by_pair, count_softened_by_pair, cracks_from_snapshot
 from ...results.emission import EventRule, event_rule
 from ...results.result import Result
-from ...results.solids.state import SolidSnapshot
 from ...specimens.kernel_input import Circle
-from ...specimens.space.specimen import SolidSpecimen
-from ...specimens.specimen import Specimen
+from ...specimens.specimen import AnySpecimen, Specimen
 from ..readings import RigReadings
 
 
@@ -70,13 +67,11 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
         result.measure_first_cracks(centre, 0.5 * built.specimen.dimensions["diameter"])
     result.contact_width = rig.contact_width
     result.measure_fragments(snapshot)
-    if isinstance(snapshot, SolidSnapshot):
-        result.tetrahedra = len(snapshot.tetrahedra)
-    if isinstance(built, SolidModel):
-        result.largest_overlap = built.solver.overlaps()["of_diameter"]
+    result.tetrahedra = snapshot.elements
     if isinstance(built, Model):  # bonds of spheres tell no energy
         result.measure_emission(_event_rule(built.specimen, built.solver))
         result.joint_bend = built.joint_bend
+        result.largest_overlap = built.largest_overlap
         cuts = built.specimen.told_cuts.items()
         result.joint_cuts = {name: cut.to_json() for name, cut in cuts} or None
         result.networks = built.specimen.network_intensities() or None
@@ -84,14 +79,9 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
     return result
 
 
-def grains_across(specimen: Specimen | SolidSpecimen) -> float:
+def grains_across(specimen: AnySpecimen) -> float:
     """Smallest size over the mean grain [-]; joints make smaller grains of those that they cut."""
-    if isinstance(specimen, SolidSpecimen):
-        return min(specimen.dimensions.values()) / specimen.mean_diameter
-    if not isinstance(specimen.outline, np.ndarray):
-        return specimen.dimensions["diameter"] / specimen.mean_diameter
-    sizes = np.ptp(specimen.outline, axis=0)
-    return float(np.min(sizes)) / specimen.mean_diameter
+    return specimen.smallest_size / specimen.mean_diameter
 
 
 def _event_rule(specimen: Specimen, solver: wrapper.GrainSolver) -> EventRule:

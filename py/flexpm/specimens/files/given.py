@@ -10,19 +10,19 @@ from ...progress import Progress
 from ..space.any_spec import AnySpec
 from ..space.specimen import SolidSpecimen
 from ..spec import GRAINS_FILE, SpecimenSpec
-from ..specimen import Specimen
+from ..specimen import AnySpecimen, Specimen
 
 #: Name of the file.
 FILE = GRAINS_FILE
 
 
-def save(folder: Path, specimen: Specimen | SolidSpecimen) -> None:
+def save(folder: Path, specimen: AnySpecimen) -> None:
     """Save a specimen that was made from what a script has given; others need no file."""
     if not specimen.spec.is_packed:
         specimen.save(folder / FILE)
 
 
-def load(spec: AnySpec, folder: Path, progress: Progress | None = None) -> Specimen | SolidSpecimen:
+def load(spec: AnySpec, folder: Path, progress: Progress | None = None) -> AnySpecimen:
     """Make the specimen of a run again: packed from its seed, or from its file.
 
     Args:
@@ -33,7 +33,7 @@ def load(spec: AnySpec, folder: Path, progress: Progress | None = None) -> Speci
     Raises:
         InputError: if the file is not there any more, or holds another specimen.
     """
-    made: Specimen | SolidSpecimen
+    made: AnySpecimen
     if isinstance(spec, SpecimenSpec):
         if spec.is_packed:
             return Specimen.pack(spec, progress)

@@ -102,6 +102,11 @@ class SolidSpec:
         """Whether a packing gives the specimen again, without a file."""
         return self.spheres is None and self.minerals is None
 
+    @property
+    def is_laguerre(self) -> bool:
+        """Whether all cells are those of spheres."""
+        return self.cells is None
+
     def require_alike(self, model: str) -> None:
         """A solid has neither joints nor strengths of its own: any model takes it."""
 

@@ -221,6 +221,60 @@ class SolidSpecimen(PlaneOnly):
         """Diameter of a ball of the specimen's volume [m]."""
         return float(np.cbrt(6.0 / math.pi * self.spec.volume))
 
+    size_name = "volume"  #: what cells are measured by
+    grains = None  #: no cell is cut by joints
+    side_depth = 1.0  #: factor from the size of a side to its area
+
+    @property
+    def before(self) -> SolidSpecimen | None:
+        """The solid before notches of a test have cut its cells; None without any."""
+        return None
+
+    @property
+    def parents(self) -> IntArray | None:
+        """Grain of the solid before that each grain is, or is a piece of."""
+        return None
+
+    @property
+    def depth(self) -> float | None:
+        """Size along y of a box, a disc or half of one [m]."""
+        return self.dimensions.get("depth")
+
+    @property
+    def cell_sizes(self) -> FloatArray:
+        """Volume of each cell [m3]."""
+        return self.cells.volumes
+
+    @property
+    def smallest_size(self) -> float:
+        """Smallest size of the shape [m]."""
+        return min(self.dimensions.values())
+
+    @property
+    def corners(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Lower left and upper right corner of the section along x and z [m]."""
+        sizes = self.dimensions
+        if self.kind == "solid-half-disc":
+            radius = 0.5 * sizes["diameter"]
+            return (-radius, 0.0), (radius, radius)
+        return (0.0, 0.0), (sizes["width"], sizes["height"])
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """Heights of the lower and the upper end [m]."""
+        return 0.0, self.dimensions["height"]
+
+    def wall_distances(self) -> FloatArray:
+        """Distance of each centre from the nearest wall [m]."""
+        x, y, z = self.centres.T
+        walls = self.outline().walls.tolist()
+        found: FloatArray = np.min([d - (a * x + b * y + c * z) for a, b, c, d in walls], axis=0)
+        return found
+
+    def lines_of(self, joint: str) -> FloatArray:
+        """Ends (n, 2, 2) [m] of notches in the section along x and z: none."""
+        return np.empty((0, 2, 2))
+
     def joint_lines(self) -> list[FloatArray]:
         """None: a solid has no joints."""
         return []
