@@ -48,9 +48,9 @@ TEST_CASE("Displacements are drawn as many times larger as asked", "[view]")
     set_velocity(a, 1, Point { 1e-9, 0.0 });
     run(a, 1);
     CHECK(flexpm::point_line(a, 0, 1, 1e4).from.x == Approx(size + 0.5e-5).epsilon(1e-9));
-    const flexpm::Line branch = flexpm::branch_line(a, 0, 1e4);
-    CHECK(branch.from.x == Approx(0.5 * size));
-    CHECK(branch.to.x == Approx(1.5 * size + 1e-5).epsilon(1e-9));
+    const auto branch = flexpm::branch_line(a.grains, a.contacts.pairs[0], 1e4);
+    CHECK(branch[0].x == Approx(0.5 * size));
+    CHECK(branch[1].x == Approx(1.5 * size + 1e-5).epsilon(1e-9));
 }
 
 TEST_CASE("Normal forces are positive in tension", "[view]")

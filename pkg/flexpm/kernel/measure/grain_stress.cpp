@@ -42,13 +42,9 @@ SpaceTensor mean_stress(const Grains& grains, int grain, const SpaceTensor& sum,
 {
     if (!grains.is_rigid(grain)) return over(grains, sum, volume);
     SpaceTensor total {};
-    const Vector centre = grains.position(grains.centre(grain));
-    for (int n = 0; n < grains.vertices_of(grain); ++n) {
-        const int node = grains.node(grain, n);
-        const Vector arm = grains.position(node) - centre;
-        const SpaceTensor one = product_of(grains.vector(grains.force, node), arm);
-        total = sum_of(total, 1.0, over(grains, one, volume));
-    }
+    for_each_corner_force(grains, grain, [&](Vector force, Vector arm) {
+        total = sum_of(total, 1.0, over(grains, product_of(force, arm), volume));
+    });
     return total;
 }
 

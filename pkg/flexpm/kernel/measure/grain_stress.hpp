@@ -62,6 +62,17 @@ template <class Visit> void for_each_element(const SolidState& s, int grain, Vis
     for_each_tetrahedron(s, block, add);
 }
 
+/// Call visit(force, arm) for each corner of a grain: the force on it [N], and its place from the
+/// centre [m].
+template <class Visit> void for_each_corner_force(const Grains& grains, int grain, Visit visit)
+{
+    const Vector centre = grains.position(grains.centre(grain));
+    for (int n = 0; n < grains.vertices_of(grain); ++n) {
+        const int node = grains.node(grain, n);
+        visit(grains.vector(grains.force, node), grains.position(node) - centre);
+    }
+}
+
 /// Sum of two tensors, the second times a factor.
 SpaceTensor sum_of(const SpaceTensor& a, double factor, const SpaceTensor& b);
 

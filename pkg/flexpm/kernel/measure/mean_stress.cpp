@@ -34,16 +34,6 @@ struct Virial {
     }
 };
 
-/// Forces on a rigid grain, which its shape carries from node to node.
-void add_rigid(const Grains& grains, int grain, Virial& total)
-{
-    const Vector centre = grains.position(grains.centre(grain));
-    for (int n = 0; n < grains.vertices_of(grain); ++n) {
-        const int node = grains.node(grain, n);
-        total.add(grains.vector(grains.force, node), grains.position(node) - centre);
-    }
-}
-
 /// Forces of contacts between the places of their two faces, and the volume of their overlaps.
 void add_contacts(const Assembly& a, Virial& total)
 {
@@ -138,7 +128,9 @@ template <class State> Balance balance(const State& s)
         for_each_element(
             s, g, [&](const auto& element) { inside.add(element.stress, element.present_volume); });
         if (!s.grains.is_rigid(g)) continue;
-        add_rigid(s.grains, g, inside);
+        // forces on a rigid grain, which its shape carries from corner to corner
+        for_each_corner_force(
+            s.grains, g, [&](Vector force, Vector arm) { inside.add(force, arm); });
         if constexpr (std::is_same_v<State, Assembly>)
             inside.volume += s.volume_of(cell_section(s.grains, g).area);
     }

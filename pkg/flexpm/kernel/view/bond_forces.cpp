@@ -29,6 +29,12 @@ template <class State> Vector unit_normal(const State& s, int contact)
 
 }  // namespace
 
+std::array<Vector, 2> branch_line(const Grains& grains, GrainPair pair, double factor)
+{
+    return { grains.position(grains.centre(pair[0]), factor),
+        grains.position(grains.centre(pair[1]), factor) };
+}
+
 template <class State> double normal_force(const State& s, int contact)
 {
     // the force on the second grain points back to the first in tension

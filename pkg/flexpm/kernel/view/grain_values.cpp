@@ -197,8 +197,8 @@ template <class State> std::vector<double> grain_values(const State& a, GrainVal
     return values;
 }
 
-template std::vector<double> grain_values(const Assembly&, GrainValue);
-template std::vector<double> grain_values(const SolidState&, GrainValue);
+template std::vector<double> grain_values<Assembly>(const Assembly&, GrainValue);
+template std::vector<double> grain_values<SolidState>(const SolidState&, GrainValue);
 
 Extent extent_of(const Grains& grains)
 {

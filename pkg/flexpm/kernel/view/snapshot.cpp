@@ -197,13 +197,13 @@ void add_surface(const SolidState& s, SolidSnapshot& to)
 
 }  // namespace
 
-Point contact_end(const Assembly& a, int contact, int end)
+Point contact_end(const Assembly& a, int contact, int end, double factor)
 {
     Point sum;
     for (int side = 0; side < 2; ++side) {
         const auto [from, to] = a.contacts.edge(contact, side);
         const double share = acting_part(a, contact, side)[end];
-        const Point p = a.grains.point_at(from), q = a.grains.point_at(to);
+        const Point p = a.grains.point_at(from, factor), q = a.grains.point_at(to, factor);
         sum = sum + 0.5 * ((1.0 - share) * p + share * q);
     }
     return sum;

@@ -85,7 +85,8 @@ struct SolidSnapshot : SnapshotRows {
 Snapshot take_snapshot(const Assembly& a);
 SolidSnapshot take_snapshot(const SolidState& s);
 
-/// Current end of a contact's edge (0 or 1): the middle between the two grains.
-Point contact_end(const Assembly& a, int contact, int end);
+/// Current end (0 or 1) of the part of the edges on which a contact acts, in the middle between both
+/// grains, where displacements are drawn `factor` times larger.
+Point contact_end(const Assembly& a, int contact, int end, double factor = 1.0);
 
 }  // namespace flexpm

@@ -66,14 +66,6 @@ namespace {
 	void draw(const flexpm::Line& line, Real width) { draw(toYade(line.from), toYade(line.to), width); }
 	void draw(const flexpm::Segment& line, Real width) { draw(toYade(line[0]), toYade(line[1]), width); }
 
-	/// Between the centres of both grains.
-	flexpm::Line    branchOf(const flexpm::Assembly& a, int place) { return flexpm::branch_line(a, place, Gl1_LaguerreCell::scale); }
-	flexpm::Segment branchOf(const flexpm::SolidState& s, int place)
-	{
-		const auto centre = [&](int grain) { return s.grains.position(s.grains.centre(grain), Gl1_LaguerreCell::scale); };
-		return { centre(s.contacts.pairs[place][0]), centre(s.contacts.pairs[place][1]) };
-	}
-
 	template <class State> void drawForce(const State& state, int place)
 	{
 		const Real force = flexpm::normal_force(state, place);
@@ -82,7 +74,8 @@ namespace {
 			glColor3d(0., 0., 0.);
 		else
 			glColor3d(.85, .1, .1);
-		draw(branchOf(state, place), Gl1_LobattoPhys::forceWidth * std::abs(force) / shown.largest);
+		draw(flexpm::branch_line(state.grains, state.contacts.pairs[place], Gl1_LaguerreCell::scale),
+		     Gl1_LobattoPhys::forceWidth * std::abs(force) / shown.largest);
 	}
 
 	void setColour(const Vector3r& colour) { glColor3d(colour[0], colour[1], colour[2]); }
