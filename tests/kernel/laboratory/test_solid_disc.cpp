@@ -6,8 +6,8 @@
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/parts/solid_jaws.hpp>
-#include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 
 #include "support/solid_states.hpp"
@@ -148,9 +148,9 @@ TEST_CASE("A jaw has the gaps and normals of two circles, and a wide one is flat
             const double way = std::sqrt(rim * rim + apart * apart + 2.0 * rim * apart * cosine);
             CHECK(std::fabs(plate.gap[i] - (radius - way)) < 1e-8 * rim);
             CHECK(std::fabs(like.gap[i] - rim * (1.0 - cosine)) < 1e-4 * rim);
-            CHECK(norm(normal_at(plate, i)) == Approx(1.0));
-            CHECK(norm(normal_at(like, i) - plate.normal) < 1e-4);
-            CHECK(dot(normal_at(plate, i), outwards) < 0.0);
+            CHECK(norm(point_normal(plate, i)) == Approx(1.0));
+            CHECK(norm(point_normal(like, i) - plate.normal) < 1e-4);
+            CHECK(dot(point_normal(plate, i), outwards) < 0.0);
             CHECK((plate.gap[i] == 0.0) == (flat.plates[side].gap[i] == 0.0));
         }
     }

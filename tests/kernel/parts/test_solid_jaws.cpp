@@ -3,10 +3,10 @@
 /// is refused.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
-#include <flexpm/kernel/parts/solid_jaws.hpp>
+#include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
+#include <flexpm/kernel/parts/solid_jaws.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 
 #include "support/solid_states.hpp"
@@ -99,7 +99,7 @@ TEST_CASE("Jaws with friction hold a disc and bear what presses it", "[solids][m
                     plate.shear_force[3 * i + 2] };
                 // along the rim, within friction
                 const double pushed = std::max(-plate.opening[i], 0.0) * point_stiffness(plate, i);
-                CHECK(std::fabs(dot(shear, normal_at(plate, i))) <= 1e-9 * norm(shear));
+                CHECK(std::fabs(dot(shear, point_normal(plate, i))) <= 1e-9 * norm(shear));
                 CHECK(norm(shear) <= plate.friction * pushed * (1.0 + 1e-9));
             }
         }

@@ -2,10 +2,10 @@
 /// @file  A plate of space in a soft machine: springs in series, energies, the linear start.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
-#include <flexpm/kernel/parts/solid_jaws.hpp>
+#include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
+#include <flexpm/kernel/parts/solid_jaws.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 
 #include "support/solid_states.hpp"
@@ -137,7 +137,7 @@ TEST_CASE("A smooth jaw in a soft machine is where its spring and its contacts b
     CHECK(std::fabs(e.kinetic + e.elastic + e.damage + e.friction + e.damping + e.drag
               - e.boundary_work - e.initial)
         < 1e-3 * e.elastic);
-    CHECK_THROWS_WITH(set_machine(s, 0, machine), Catch::Contains("must be 0 in space"));
+    CHECK_THROWS_WITH(set_machine(s, 0, machine), Catch::Contains("must be 0 in 3D"));
 }
 
 TEST_CASE("A crosshead of space that goes back takes the plate off", "[solids]")

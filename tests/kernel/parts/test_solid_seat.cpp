@@ -4,9 +4,9 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/core/random.hpp>
-#include <flexpm/kernel/parts/plate_springs.hpp>
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
+#include <flexpm/kernel/parts/plate_springs.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 
 #include "support/solid_states.hpp"
@@ -63,7 +63,7 @@ struct Seated {
         for (int i = 0; i < static_cast<int>(top().facets.size()); ++i) {
             const double gap = top().opening[i];
             if (!top().bonded && gap >= 0.0) continue;
-            sum = sum - point_stiffness(top(), i) * gap * seat_arm(top(), i);
+            sum = sum - point_stiffness(top(), i) * gap * point_arm(top(), i);
         }
         return sum;
     }
@@ -191,7 +191,7 @@ TEST_CASE("A seated plate of space lies on three contacts around its seat", "[so
             REQUIRE(p.opening[i] > -1e-9 * a);
             if (p.opening[i] > 1e-9 * a) continue;
             ++touching;
-            const double x = dot(seat_arm(p, i), first), y = dot(seat_arm(p, i), second);
+            const double x = dot(point_arm(p, i), first), y = dot(point_arm(p, i), second);
             const double ways[] = { x, -x, y, -y };
             for (int k = 0; k < 4; ++k)
                 least[k] = std::min(least[k], ways[k]);

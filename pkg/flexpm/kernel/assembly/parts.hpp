@@ -24,7 +24,7 @@ struct Plate {
     int side = -1;                 ///< side of the outline it lies on; -1: none in particular
     Vector position;               ///< of its face at the reference, where its load acts [m]
     Vector normal;                 ///< unit vector
-    double width = 0.0;            ///< of the face that takes pressure [m]; in space its area [m^2]
+    double width = 0.0;            ///< of the face that takes pressure [m]; in 3D its area [m^2]
     double stiffness = 0.0;        ///< normal stiffness per area K_n [Pa/m]
     double shear_stiffness = 0.0;  ///< [Pa/m], of frictional contacts
     double friction = 0.0;         ///< coefficient [-]; 0: smooth
@@ -34,11 +34,10 @@ struct Plate {
                                ///< in series [Pa/m]; 0: none
     double jaw_radius = 0.0;   ///< of the arc of a jaw [m]; 0: straight
     double disc_radius = 0.0;  ///< of the disc in it [m]
-    std::vector<double> normals;  ///< of a jaw, [facet][point][axis]
+    std::vector<double> normals;  ///< of a jaw, [facet][point][axis], see point_normal()
     bool seated = false;          ///< turns freely about its seat
-    std::vector<double> arms;     ///< of a seated one, [facet][point]: what the plate's face goes
-                                  ///< along its normal there as it turns by 1 rad [m]; in space
-                                  ///< [facet][axis], by each component of a turn
+    std::vector<double> arms;     ///< of a seated one, see point_arm() [m]: in 2D [facet][point],
+                                  ///< in 3D [facet][axis]
 
     // what drives it
     bool loaded = false;  ///< moves along its normal under `load`; else `velocity` is prescribed
@@ -52,17 +51,18 @@ struct Plate {
     // state
     Vector displacement;          ///< [m]
     double machine_give = 0.0;    ///< what that spring is shorter by [m]
-    Vector turn;                  ///< of a seated one from square to its normal; in the plane
-                                  ///< about z, counter-clockwise [rad]
+    Vector turn;                  ///< of a seated one from square to its normal; in 2D about z,
+                                  ///< counter-clockwise [rad]
     std::vector<int> facets;      ///< of the boundary, which may touch it
     std::vector<double> gap;      ///< [facet][point] at the reference [m]
     std::vector<double> area;     ///< [facet][point] [m^2]
     std::vector<double> opening;  ///< [facet][point] gap at the last step [m]
-    /// [facet][point] on the grain along (-normal.y, normal.x); in space [facet][axis] [N]
+    /// On the grain, see point_shear(): in 2D [facet][point] along (-normal.y, normal.x), in 3D
+    /// [facet][axis] [N].
     std::vector<double> shear_force;
-    std::vector<double> slid;    ///< in space [facet][axis]: where a contact with friction is [m]
-    std::vector<double> rubbed;  ///< in space [facet]: energy of friction [J]
-    /// In space [facet][corner]: shares of a triangle's corners in a contact; empty: equal ones.
+    std::vector<double> slid;    ///< in 3D [facet][axis]: where a contact with friction is [m]
+    std::vector<double> rubbed;  ///< in 3D [facet]: energy of friction [J]
+    /// In 3D [facet][corner]: shares of a triangle's corners in a contact; empty: equal ones.
     std::vector<double> shares;
     Vector force;  ///< on the specimen at the last step [N]
 
@@ -132,42 +132,6 @@ struct Plate {
         visit("unbalanced", s.unbalanced);
     }
 };
-
-/// Place of point `point` along its facet, 0 to 1.
-inline double plate_weight(const Plate& p, int point) { return p.points == 1 ? 0.5 : point; }
-
-/// Share of a corner of its triangle in a contact of space.
-inline double corner_share(const Plate& p, int index, int corner)
-{
-    return p.shares.empty() ? 1.0 / 3.0 : p.shares[3 * static_cast<std::size_t>(index) + corner];
-}
-
-/// Into the specimen at a point of a plate, a unit vector.
-inline Vector point_normal(const Plate& p, int index)
-{
-    if (p.normals.empty()) return p.normal;
-    const std::size_t i = 2 * static_cast<std::size_t>(index);
-    return { p.normals[i], p.normals[i + 1] };
-}
-
-/// What a plate's face goes along its normal at a point as the plate turns by 1 rad [m].
-inline double point_arm(const Plate& p, int index) { return p.seated ? p.arms[index] : 0.0; }
-
-/// Displacement of the crosshead behind a plate, or its own without a machine [m].
-inline Vector crosshead_displacement(const Plate& p)
-{
-    return p.displacement + p.machine_give * p.normal;
-}
-
-/// Stored in the spring of the machine [J]. What the crosshead works is the plate's work on the
-/// specimen and what this grows by.
-inline double machine_energy(const Plate& p)
-{
-    return 0.5 * p.machine_stiffness * p.machine_give * p.machine_give;
-}
-
-/// Whether its place in a step follows from its contacts: by its machine or by its seat.
-inline bool is_soft(const Plate& p) { return p.seated || p.machine_stiffness > 0.0; }
 
 /// Nodes that a test holds or moves as one, wherever they lie: what is held of them has a rigid
 /// motion, a translation and a rotation about a pivot. In the plane that is about z,

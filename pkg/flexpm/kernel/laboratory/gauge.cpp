@@ -4,6 +4,7 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/parts/plate_contact.hpp>
+#include <flexpm/kernel/parts/soft_plate.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/laboratory/solid_beam.hpp>
 
+#include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/parts/solid_sets.hpp>
-#include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include <algorithm>
@@ -122,7 +122,7 @@ int add_line_plate(SolidState& s, SolidSide side, const BearingLine& line)
 
 int find_line_plate(const SolidState& s, SolidSide side, const BearingLine& line)
 {
-    return find_alike(s, plate_along(s, side, line));
+    return find_alike(s.plates, plate_along(s, side, line));
 }
 
 double mouth_opening(const SolidState& s, const Mouth& mouth)

@@ -2,12 +2,12 @@
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/parts/loaded_plate.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/parts/solid_sets.hpp>
+#include <flexpm/kernel/parts/plate_loading.hpp>
+#include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
-#include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/parts/solid_plates.hpp>
 
 #include <algorithm>
 

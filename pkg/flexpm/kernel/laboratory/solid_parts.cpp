@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
 
+#include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/laboratory/softening_ahead.hpp>
+#include <flexpm/kernel/laboratory/solid_drive.hpp>
+#include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/parts/solid_sets.hpp>
 #include <flexpm/kernel/parts/plate_springs.hpp>
 #include <flexpm/kernel/parts/rigid_support.hpp>
-#include <flexpm/kernel/laboratory/solid_drive.hpp>
+#include <flexpm/kernel/parts/soft_plate.hpp>
 #include <flexpm/kernel/parts/solid_jaws.hpp>
-#include <flexpm/kernel/parts/solid_sets.hpp>
-#include <flexpm/kernel/laboratory/softening_ahead.hpp>
+#include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/parts/surface_pieces.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/assembly/solid_plan.hpp>
-#include <flexpm/kernel/parts/solid_plates.hpp>
 
 #include <algorithm>
 #include <array>
@@ -60,8 +61,8 @@ double push_rate(const SolidState& s, const std::vector<int>& plates, Vector dir
             Vector way = follows.give * plate.normal - plate.velocity;
             for (int k = 0; k < 3; ++k)
                 way = way + corner_share(plate, i, k) * space_vector(velocity, nodes[k]);
-            const Vector normal = normal_at(plate, i), across = dot(normal, way) * normal;
-            const Vector opens = across - dot(seat_arm(plate, i), follows.turn) * normal;
+            const Vector normal = point_normal(plate, i), across = dot(normal, way) * normal;
+            const Vector opens = across - dot(point_arm(plate, i), follows.turn) * normal;
             sum -= point_stiffness(plate, i) * dot(opens, direction)
                 + sliding_stiffness(plate, i) * dot(way - across, direction);
         }
@@ -108,7 +109,7 @@ void require_resistance(const SolidState& s, const PartGeometry& parts)
             for (int k = 0; k < 3; ++k)
                 place =
                     place + corner_share(plate, i, k) * space_vector(s.grains.reference, nodes[k]);
-            const Vector normal = normal_at(plate, i);
+            const Vector normal = point_normal(plate, i);
             const double stiffness = point_stiffness(plate, i);
             stiffest = std::max(stiffest, stiffness);
             // what turns on its seat bears there alone
@@ -227,7 +228,7 @@ void seat(Plate& p, const std::vector<Vector>& places)
     const double face = dot(p.normal, places.front()) - p.gap.front() + at_seat;
     p.position = p.position + (face - dot(p.normal, p.position)) * p.normal;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const double turned = dot(seat_arm(p, static_cast<int>(i)), p.turn);
+        const double turned = dot(point_arm(p, static_cast<int>(i)), p.turn);
         p.gap[i] -= at_seat;
         if (std::fabs(p.gap[i] - turned) < no_gap * size) p.gap[i] = turned;  // it lies there
         p.opening[i] = p.gap[i] - turned;
@@ -286,7 +287,7 @@ int add_patch_plate(SolidState& s, const SolidPatch& patch)
 
 int find_patch_plate(const SolidState& s, const SolidPatch& patch)
 {
-    return find_alike(s, plate_before(s, patch));
+    return find_alike(s.plates, plate_before(s, patch));
 }
 
 SolidDrive drive_of(const PartGeometry& parts)

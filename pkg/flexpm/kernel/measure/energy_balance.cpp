@@ -246,10 +246,7 @@ template <class State> Energies energies(const State& s)
     double damped = first_of_pairs(s.ledger.damping_work);
     for (const Plate& p : s.plates) {
         e.kinetic += p.kinetic;
-        if constexpr (is_plane<State>)
-            e.elastic += elastic_energy(p);
-        else
-            e.elastic += solid_plate_energy(p);
+        e.elastic += elastic_energy(p);
         damped += p.damping_work;
         e.drag += p.drag_work;
     }

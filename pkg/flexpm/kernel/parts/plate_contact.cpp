@@ -2,10 +2,8 @@
 /// @file  Plates against facets.
 #include <flexpm/kernel/parts/plate_contact.hpp>
 
-#include <flexpm/kernel/assembly/loose_groups.hpp>
-#include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/parts/plate_loading.hpp>
 #include <flexpm/kernel/parts/soft_plate.hpp>
-#include <flexpm/kernel/parts/loaded_plate.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -48,9 +46,9 @@ Vector touch(Assembly& a, Plate& plate, double give, double dt)
         const Point v = vector_on_edge(a.grains.velocity, nodes, p.weight);
         const Vector way = u + dt * v - plate.displacement;
         double gap = plate.gap[i] + dot(along, way);
-        if (plate.seated) gap -= plate.arms[i] * plate.turn.z;
+        if (plate.seated) gap -= point_arm(plate, i).z * plate.turn.z;
         plate.opening[i] = gap;
-        const double normal = normal_force(plate, p, gap);
+        const double normal = normal_force(plate, i, gap);
         if (plate.friction > 0.0) {
             double slip = dot(tangent, dt * (v - plate.velocity));
             // a straight plate gives square to its face
@@ -71,13 +69,12 @@ void update_plate(Assembly& a, std::size_t number, double dt, double damping)
     const Vector before = plate.force, from = plate.displacement;
     const bool machine = plate.machine_stiffness > 0.0;
     plate.displacement = plate.displacement + dt * plate.velocity;
-    const double give = plate.seated || (machine && !plate.loaded) ? give_way(a, plate, dt) : 0.0;
+    const double give = plate.seated || gives_way(plate) ? give_way(a, plate, dt) : 0.0;
     plate.force = touch(a, plate, give, dt);
     if (machine && plate.loaded)
         plate.machine_give = dot(plate.normal, plate.force) / plate.machine_stiffness;
     if (plate.loaded) {
-        const double undamped = dot(plate.normal, a.loading.of_plate(number).velocity);
-        integrate_loaded(plate, undamped, bears_any(plate, a.facets.grain, a.grains), dt, damping);
+        integrate_loaded(a, number, a.facets.grain, dt, damping);
     } else if (machine) {
         plate.boundary_work += dot(0.5 * (before + plate.force), plate.displacement - from);
     } else {
@@ -87,61 +84,10 @@ void update_plate(Assembly& a, std::size_t number, double dt, double damping)
 
 }  // namespace
 
-void require_plate(const Assembly& a, int plate)
-{
-    if (plate < 0 || plate >= static_cast<int>(a.plates.size())) {
-        refuse("plate", plate, "", "must be the number of a plate; add one first");
-    }
-}
-
-void press(Assembly& a, int plate, double pressure)
-{
-    require_plate(a, plate);
-    check_not_negative("pressure on a plate", pressure, "Pa");
-    if (a.plates[plate].mass <= 0.0) {
-        refuse("mass of a plate", a.plates[plate].mass, "kg", "must be above 0; scale the masses");
-    }
-    a.plates[plate].loaded = true;
-    a.plates[plate].load = a.area_of(pressure * a.plates[plate].width);
-}
-
-void set_velocity(Assembly& a, int plate, Vector velocity)
-{
-    require_plate(a, plate);
-    check_finite("velocity of a plate", velocity.x, "m/s");
-    check_finite("velocity of a plate", velocity.y, "m/s");
-    check_finite("velocity of a plate", velocity.z, "m/s");
-    Plate& p = a.plates[plate];
-    let_go(p);
-    p.velocity = velocity;
-}
-
-void set_machine(Assembly& a, int plate, double stiffness)
-{
-    require_plate(a, plate);
-    check_positive("stiffness of a machine", stiffness, "N/m");
-    Plate& p = a.plates[plate];
-    if (p.machine_stiffness > 0.0) {
-        refuse("stiffness of a machine", stiffness, "N/m",
-            "must be given once, was " + number(p.machine_stiffness) + " N/m");
-    }
-    p.machine_stiffness = stiffness;
-    p.machine_give = dot(p.normal, p.force) / stiffness;
-}
-
-int plate_points(const Plate& p) { return static_cast<int>(p.facets.size()) * p.points; }
-
 PlatePoint plate_point(const Plate& p, int index)
 {
     return { p.facets[index / p.points], plate_weight(p, index % p.points),
-        p.stiffness * p.area[index], p.friction > 0.0 ? p.shear_stiffness * p.area[index] : 0.0 };
-}
-
-Vector point_force(const Plate& p, int index)
-{
-    const double normal = normal_force(p, plate_point(p, index), p.opening[index]);
-    const Vector along = point_normal(p, index);
-    return normal * along + p.shear_force[index] * tangent_of(in_plane(along));
+        point_stiffness(p, index), sliding_stiffness(p, index) };
 }
 
 void update_plates(Assembly& a, double dt, double damping)
@@ -156,36 +102,6 @@ void update_plates(Assembly& a, double dt, double damping)
     }
     for (std::size_t i = 0; i < a.plates.size(); ++i)
         update_plate(a, i, dt, damping);
-}
-
-double elastic_energy(const Plate& plate)
-{
-    double total = 0.0;
-    for (int i = 0; i < plate_points(plate); ++i) {
-        const PlatePoint p = plate_point(plate, i);
-        const double gap = plate.bonded ? plate.opening[i] : std::min(plate.opening[i], 0.0);
-        total += 0.5 * p.stiffness * gap * gap;
-        if (p.shear_stiffness > 0.0) {
-            total += 0.5 * plate.shear_force[i] * plate.shear_force[i] / p.shear_stiffness;
-        }
-    }
-    return total;
-}
-
-bool has_plates(const Assembly& a, int side)
-{
-    return std::any_of(
-        a.plates.begin(), a.plates.end(), [side](const Plate& p) { return p.side == side; });
-}
-
-Vector plate_force(const Assembly& a, int side)
-{
-    Vector sum;
-    for (const Plate& p : a.plates) {
-        if (p.side != side) continue;
-        sum = sum + p.force;
-    }
-    return sum;
 }
 
 Point middle_of_face(const Assembly& a, const Plate& p)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/parts/soft_plate.hpp>
 
-#include <flexpm/kernel/parts/plate_springs.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,23 +11,52 @@ namespace flexpm {
 
 namespace {
 
-/// Springs of a plate at the end of a step that began at the present displacements of the nodes.
-SoftPlate soft_plate(const Assembly& a, const Plate& plate, double dt)
+/// Way of a point from its reference, less that of the plate, at the end of a step [m].
+Vector way_after(const Assembly& a, const Plate& plate, int index, double dt)
 {
-    SoftPlate found { plate.loaded ? 0.0 : plate.machine_stiffness, plate.machine_give,
+    const PlatePoint p = plate_point(plate, index);
+    const auto nodes = a.facets.nodes(p.facet);
+    return vector_on_edge(a.grains.displacement, nodes, p.weight)
+        + dt * vector_on_edge(a.grains.velocity, nodes, p.weight) - plate.displacement;
+}
+Vector way_after(const SolidState& s, const Plate& plate, int index, double dt)
+{
+    const int triangle = plate.facets[index], grain = s.surface.grain[triangle];
+    Vector way = -1.0 * plate.displacement;
+    for (int k = 0; k < 3; ++k) {
+        const int node = s.surface.nodes[triangle][k];
+        way = way + corner_share(plate, index, k) * displacement_before(s, grain, node, -dt);
+    }
+    return way;
+}
+
+/// What the gap of a point grows by as its machine gives way and its seat turns.
+Vector opens(const Plate& plate, int index)
+{
+    const double give = gives_way(plate) ? dot(plate.normal, point_normal(plate, index)) : 0.0;
+    return flexpm::opens(plate, index, give);
+}
+
+/// Springs of a plate at the end of a step.
+template <class State> SoftPlate plate_after(const State& state, const Plate& plate, double dt)
+{
+    SoftPlate found { gives_way(plate) ? plate.machine_stiffness : 0.0, plate.machine_give,
         plate.bonded, {} };
     for (int i = 0; i < plate_points(plate); ++i) {
-        const PlatePoint p = plate_point(plate, i);
-        const auto nodes = a.facets.nodes(p.facet);
-        const Vector way = vector_on_edge(a.grains.displacement, nodes, p.weight)
-            + dt * vector_on_edge(a.grains.velocity, nodes, p.weight) - plate.displacement;
-        const Vector along = point_normal(plate, i);
-        const double arm = point_arm(plate, i);
-        const double gap = plate.gap[i] + dot(along, way) - arm * plate.turn.z;
-        const double gives = found.machine > 0.0 ? dot(plate.normal, along) : 0.0;
-        found.contacts.push_back({ gap, p.stiffness, { gives, -arm, 0.0 } });
+        const double gap = plate.gap[i]
+            + dot(point_normal(plate, i), way_after(state, plate, i, dt))
+            - dot(point_arm(plate, i), plate.turn);
+        found.contacts.push_back({ gap, point_stiffness(plate, i), opens(plate, i) });
     }
     return found;
+}
+
+/// Move a plate by a give and turns.
+void follow(Plate& plate, Vector motion)
+{
+    plate.machine_give += motion.x;
+    plate.displacement = plate.displacement - motion.x * plate.normal;
+    plate.turn = plate.turn + turn_of(plate, motion);
 }
 
 /// A jaw with friction in a soft machine: as it gives, it slips along the rim, too, and friction
@@ -43,9 +72,9 @@ public:
             const Vector way = vector_on_edge(a.grains.displacement, nodes, p.weight) + dt * v
                 - plate.displacement;
             const Vector along = point_normal(plate, i), across = tangent_of(in_plane(along));
-            points.push_back(
-                { p, plate.gap[i] + dot(along, way), dt * dot(across, v - plate.velocity),
-                    plate.shear_force[i], dot(plate.normal, along), dot(plate.normal, across) });
+            points.push_back({ i, p.shear_stiffness, plate.gap[i] + dot(along, way),
+                dt * dot(across, v - plate.velocity), plate.shear_force[i],
+                dot(plate.normal, along), dot(plate.normal, across) });
         }
     }
 
@@ -77,7 +106,8 @@ public:
 
 private:
     struct JawPoint {
-        PlatePoint point;
+        int index;
+        double shear_stiffness;          ///< [N/m]
         double gap, slip, shear;         ///< before a give [m, m, N]
         double along_give, across_give;  ///< of its normal and its tangent along the plate's normal
     };
@@ -93,10 +123,9 @@ private:
     {
         double sum = plate.machine_stiffness * (plate.machine_give + give);
         for (const JawPoint& p : points) {
-            const double normal = normal_force(plate, p.point, p.gap + give * p.along_give);
+            const double normal = normal_force(plate, p.index, p.gap + give * p.along_give);
             const double slip = p.slip + give * p.across_give;
-            const double shear =
-                within_friction(plate, normal, p.shear - p.point.shear_stiffness * slip);
+            const double shear = within_friction(plate, normal, p.shear - p.shear_stiffness * slip);
             sum -= normal * p.along_give + shear * p.across_give;
         }
         return sum;
@@ -111,11 +140,6 @@ bool is_rubbing_jaw(const Plate& plate) { return !plate.normals.empty() && plate
 
 }  // namespace
 
-double normal_force(const Plate& plate, const PlatePoint& p, double gap)
-{
-    return gap < 0.0 || plate.bonded ? -p.stiffness * gap : 0.0;
-}
-
 double within_friction(const Plate& plate, double normal_force, double shear)
 {
     const double limit = plate.friction * std::max(normal_force, 0.0);
@@ -126,11 +150,49 @@ double give_way(const Assembly& a, Plate& plate, double dt)
 {
     const Vector motion = is_rubbing_jaw(plate)
         ? Vector { RubbingJaw(a, plate, dt).balanced(), 0.0, 0.0 }
-        : soft_plate(a, plate, dt).least();
-    plate.machine_give += motion.x;
-    plate.displacement = plate.displacement - motion.x * plate.normal;
-    plate.turn.z += motion.y;
+        : plate_after(a, plate, dt).least();
+    follow(plate, motion);
     return motion.x;
+}
+
+void give_way(SolidState& s, double dt)
+{
+    for (Plate& plate : s.plates)
+        if (plate.seated || gives_way(plate)) follow(plate, plate_after(s, plate, dt).least());
+}
+
+Vector opens(const Plate& plate, int index, double give)
+{
+    const Vector arm = point_arm(plate, index);
+    const auto [first, second] = seat_axes(plate.normal);
+    return { give, -dot(arm, first), -dot(arm, second) };
+}
+
+Vector turn_of(const Plate& plate, Vector motion)
+{
+    const auto [first, second] = seat_axes(plate.normal);
+    return motion.y * first + motion.z * second;
+}
+
+PlateRates rates_of(const SolidState& s, const Plate& plate, const Array<double>& velocity)
+{
+    if (!gives_way(plate) && !plate.seated) return {};
+    PlateStiffness stiffness;
+    if (gives_way(plate)) stiffness.add_machine(plate.machine_stiffness);
+    Vector growth;
+    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
+        if (!(plate.bonded || plate.opening[i] < 0.0)) continue;
+        Vector way = plate.velocity;
+        for (int k = 0; k < 3; ++k) {
+            const int node = s.surface.nodes[plate.facets[i]][k];
+            way = way - corner_share(plate, i, k) * space_vector(velocity, node);
+        }
+        const double spring = point_stiffness(plate, i);
+        stiffness.add(spring, opens(plate, i));
+        growth = growth + spring * dot(point_normal(plate, i), way) * opens(plate, i);
+    }
+    const Vector motion = stiffness.moved_by(growth);
+    return { motion.x, turn_of(plate, motion) };
 }
 
 }  // namespace flexpm

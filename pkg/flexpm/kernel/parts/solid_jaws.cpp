@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/parts/solid_jaws.hpp>
 
+#include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/parts/solid_sets.hpp>
+#include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/parts/surface_pieces.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/assembly/solid_plan.hpp>
-#include <flexpm/kernel/parts/solid_plates.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -182,9 +182,7 @@ int add_jaw_plate(SolidState& s, const SolidJaw& jaw)
 
 int find_jaw_plate(const SolidState& s, const SolidJaw& jaw)
 {
-    const Plate plate = jaw_before(s, jaw);
-    const int found = find_alike(s, plate);
-    return found >= 0 && s.plates[found].jaw_radius == plate.jaw_radius ? found : -1;
+    return find_alike(s.plates, jaw_before(s, jaw));
 }
 
 void require_bare(const SolidState& s, const Plate& plate)

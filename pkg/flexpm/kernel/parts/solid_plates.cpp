@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/parts/solid_plates.hpp>
 
-#include <flexpm/kernel/assembly/loose_groups.hpp>
-#include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/parts/loaded_plate.hpp>
-#include <flexpm/kernel/parts/plate_springs.hpp>
-#include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/assembly/solid_plan.hpp>
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/solid_pressure.hpp>
+#include <flexpm/kernel/parts/plate_loading.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -43,17 +40,6 @@ Vector touched(
     return sum;
 }
 
-/// Force of a contact along the plate's normal on the grain [N].
-double push(const Plate& plate, int index)
-{
-    const double gap = plate.opening[index];
-    return gap < 0.0 || plate.bonded ? -point_stiffness(plate, index) * gap : 0.0;
-}
-
-Vector axes_of(const std::vector<double>& values, int index)
-{
-    return { values[3 * index], values[3 * index + 1], values[3 * index + 2] };
-}
 void set_axes(std::vector<double>& values, int index, Vector v)
 {
     values[3 * index] = v.x;
@@ -63,7 +49,7 @@ void set_axes(std::vector<double>& values, int index, Vector v)
 
 Vector along_face(const Plate& plate, int index, Vector way)
 {
-    const Vector normal = normal_at(plate, index);
+    const Vector normal = point_normal(plate, index);
     return way - dot(normal, way) * normal;
 }
 
@@ -72,11 +58,11 @@ Vector along_face(const Plate& plate, int index, Vector way)
 Vector rub(Plate& plate, int index, Vector way)
 {
     const double stiffness = sliding_stiffness(plate, index);
-    const Vector slid = axes_of(plate.slid, index), old = axes_of(plate.shear_force, index);
+    const Vector slid = three_axes(plate.slid, index), old = three_axes(plate.shear_force, index);
     const Vector stretch = along_face(plate, index, way) - slid;
     const double most = plate.bonded
         ? std::numeric_limits<double>::infinity()
-        : plate.friction * std::max(push(plate, index), 0.0) / stiffness;
+        : plate.friction * std::max(point_push(plate, index), 0.0) / stiffness;
     const double size = norm(stretch);
     const Vector stuck = size > most ? (most / size) * stretch : stretch;
     const Vector slip = stretch - stuck, force = -stiffness * stuck;
@@ -93,10 +79,10 @@ Vector force_of(const Plate& plate)
     double pushes = 0.0;
     for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
         if (plate.normals.empty())
-            pushes += push(plate, i);
+            pushes += point_push(plate, i);
         else
-            sum = sum + push(plate, i) * normal_at(plate, i);
-        if (plate.friction > 0.0) sum = sum + axes_of(plate.shear_force, i);
+            sum = sum + point_push(plate, i) * point_normal(plate, i);
+        if (plate.friction > 0.0) sum = sum + three_axes(plate.shear_force, i);
     }
     return sum + pushes * plate.normal;
 }
@@ -112,14 +98,7 @@ void take_over_pressure(SolidState& s, Plate& p)
         const Vector way = middle(s.grains.displacement, s.surface.nodes[triangle]);
         p.gap[i] = p.opening[i] - dot(p.normal, way);
     }
-    s.ledger.initial += solid_plate_energy(p);
-}
-
-Plate& plate_at(SolidState& s, int plate)
-{
-    if (plate < 0 || plate >= static_cast<int>(s.plates.size()))
-        refuse("plate", plate, "", "must be the number of a plate; lay one first");
-    return s.plates[plate];
+    s.ledger.initial += elastic_energy(p);
 }
 
 /// Work on the specimen of a plate that is driven, over a step after which its force is known [J].
@@ -131,34 +110,6 @@ double work_of_step(const Plate& plate, Vector before, double dt)
     if (!(plate.machine_stiffness > 0.0)) return work;
     const double give = plate.machine_give - dot(plate.normal, before) / plate.machine_stiffness;
     return work - give * dot(force, plate.normal);
-}
-
-/// Whether the spring of a machine gives way behind a plate.
-bool gives(const Plate& plate) { return plate.machine_stiffness > 0.0 && !plate.loaded; }
-
-/// What the gap of a contact grows by as its machine gives way and its seat turns.
-Vector opens(const Plate& plate, int index)
-{
-    return opens(plate, index, gives(plate) ? dot(normal_at(plate, index), plate.normal) : 0.0);
-}
-
-/// A plate at the end of a step that begins at the present places of the grains.
-SoftPlate plate_after(const SolidState& s, const Plate& plate, double dt)
-{
-    SoftPlate found { gives(plate) ? plate.machine_stiffness : 0.0, plate.machine_give,
-        plate.bonded, {} };
-    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-        const int triangle = plate.facets[i], grain = s.surface.grain[triangle];
-        Vector way = -1.0 * plate.displacement;
-        for (int k = 0; k < 3; ++k) {
-            const int node = s.surface.nodes[triangle][k];
-            way = way + corner_share(plate, i, k) * displacement_before(s, grain, node, -dt);
-        }
-        found.contacts.push_back(
-            { plate.gap[i] + dot(normal_at(plate, i), way) - dot(seat_arm(plate, i), plate.turn),
-                point_stiffness(plate, i), opens(plate, i) });
-    }
-    return found;
 }
 
 }  // namespace
@@ -207,19 +158,6 @@ void hold_touching(SolidState& s)
         plate.bonded = true;
     }
     prepare_step(s);
-}
-
-int find_alike(const SolidState& s, const Plate& plate)
-{
-    const auto same = [&](const Plate& there) {
-        return there.side == plate.side && norm(there.normal - plate.normal) == 0.0
-            && there.facets == plate.facets && there.area == plate.area
-            && there.shares == plate.shares && there.friction == plate.friction
-            && there.bonded == plate.bonded && there.strip == plate.strip
-            && there.seated == plate.seated;
-    };
-    const auto found = std::find_if(s.plates.begin(), s.plates.end(), same);
-    return found == s.plates.end() ? -1 : static_cast<int>(found - s.plates.begin());
 }
 
 void centre_position(const SolidState& s, Plate& plate)
@@ -284,54 +222,6 @@ void roughen_plates(SolidState& s, double friction)
     }
 }
 
-double pressed_area(const Plate& plate)
-{
-    double area = 0.0;
-    for (std::size_t i = 0; i < plate.facets.size(); ++i)
-        if (plate.opening[i] < 0.0) area += plate.area[i];
-    return area;
-}
-
-int find_plate(const SolidState& s, SolidSide side)
-{
-    for (std::size_t i = 0; i < s.plates.size(); ++i)
-        if (s.plates[i].side == static_cast<int>(side)) return static_cast<int>(i);
-    return -1;
-}
-
-double point_stiffness(const Plate& plate, int index)
-{
-    return plate.stiffness * plate.area[index];
-}
-
-Vector normal_at(const Plate& plate, int index)
-{
-    return plate.normals.empty() ? plate.normal : axes_of(plate.normals, index);
-}
-
-Vector seat_arm(const Plate& plate, int index)
-{
-    return plate.seated ? axes_of(plate.arms, index) : Vector {};
-}
-
-Vector opens(const Plate& plate, int index, double give)
-{
-    const Vector arm = seat_arm(plate, index);
-    const auto [first, second] = seat_axes(plate.normal);
-    return { give, -dot(arm, first), -dot(arm, second) };
-}
-
-Vector turn_of(const Plate& plate, Vector motion)
-{
-    const auto [first, second] = seat_axes(plate.normal);
-    return motion.y * first + motion.z * second;
-}
-
-double sliding_stiffness(const Plate& plate, int index)
-{
-    return plate.friction > 0.0 ? plate.shear_stiffness * plate.area[index] : 0.0;
-}
-
 void add_plate_forces(SolidState& s, int block)
 {
     const SolidPlan& plan = s.plan;
@@ -341,10 +231,10 @@ void add_plate_forces(SolidState& s, int block)
         const auto& nodes = s.surface.nodes[plate.facets[touch.index]];
         const Vector way =
             touched(plate, touch.index, s.grains.displacement, nodes) - plate.displacement;
-        const Vector normal = normal_at(plate, touch.index);
+        const Vector normal = point_normal(plate, touch.index);
         plate.opening[touch.index] = plate.gap[touch.index] + dot(normal, way)
-            - dot(seat_arm(plate, touch.index), plate.turn);
-        Vector force = push(plate, touch.index) * normal;
+            - dot(point_arm(plate, touch.index), plate.turn);
+        Vector force = point_push(plate, touch.index) * normal;
         if (plate.friction > 0.0) force = force + rub(plate, touch.index, way);
         for (int k = 0; k < 3; ++k) {
             const Vector part = corner_share(plate, touch.index, k) * force;
@@ -352,74 +242,6 @@ void add_plate_forces(SolidState& s, int block)
                 s.grains.force, nodes[k], space_vector(s.grains.force, nodes[k]) + part);
         }
     }
-}
-
-void free_plate(SolidState& s, int plate)
-{
-    Plate& p = plate_at(s, plate);
-    if (!(p.width > 0.0 && p.normals.empty()))
-        refuse("area of a plate", p.width, "m^2", "must be above 0; lay one on a part of the side");
-    if (p.loaded) return;
-    p.loaded = true;
-    p.load = dot(p.normal, p.force);  // it stays where it is until a pressure acts
-    p.velocity = {};
-}
-
-void press(SolidState& s, int plate, double pressure)
-{
-    check_not_negative("pressure on a plate", pressure, "Pa");
-    Plate& p = plate_at(s, plate);
-    if (!(p.loaded && p.mass > 0.0)) {
-        refuse("mass of a plate", p.mass, "kg",
-            "must be above 0; let a load move it, and scale the masses");
-    }
-    p.load = pressure * p.width;
-}
-
-void set_machine(SolidState& s, int plate, double stiffness)
-{
-    check_positive("stiffness of a machine", stiffness, "N/m");
-    Plate& p = plate_at(s, plate);
-    if (p.machine_stiffness > 0.0) {
-        refuse("stiffness of a machine", stiffness, "N/m",
-            "must be given once, was " + number(p.machine_stiffness) + " N/m");
-    }
-    if (!p.normals.empty() && p.friction > 0.0)
-        refuse("friction of a jaw in a soft machine", p.friction, "", "must be 0 in space");
-    p.machine_stiffness = stiffness;
-    p.machine_give = dot(p.normal, p.force) / stiffness;
-}
-
-void give_way(SolidState& s, double dt)
-{
-    for (Plate& plate : s.plates) {
-        if (!gives(plate) && !plate.seated) continue;
-        const Vector motion = plate_after(s, plate, dt).least();
-        plate.machine_give += motion.x;
-        plate.displacement = plate.displacement - motion.x * plate.normal;
-        plate.turn = plate.turn + turn_of(plate, motion);
-    }
-}
-
-PlateRates rates_of(const SolidState& s, const Plate& plate, const Array<double>& velocity)
-{
-    if (!gives(plate) && !plate.seated) return {};
-    PlateStiffness stiffness;
-    if (gives(plate)) stiffness.add_machine(plate.machine_stiffness);
-    Vector growth;
-    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-        if (!(plate.bonded || plate.opening[i] < 0.0)) continue;
-        Vector way = plate.velocity;
-        for (int k = 0; k < 3; ++k) {
-            const int node = s.surface.nodes[plate.facets[i]][k];
-            way = way - corner_share(plate, i, k) * space_vector(velocity, node);
-        }
-        const double spring = point_stiffness(plate, i);
-        stiffness.add(spring, opens(plate, i));
-        growth = growth + spring * dot(normal_at(plate, i), way) * opens(plate, i);
-    }
-    const Vector motion = stiffness.moved_by(growth);
-    return { motion.x, turn_of(plate, motion) };
 }
 
 void sum_plates(SolidState& s, double dt, double damping)
@@ -431,27 +253,11 @@ void sum_plates(SolidState& s, double dt, double damping)
         if (plate.loaded) {
             if (plate.machine_stiffness > 0.0)
                 plate.machine_give = dot(plate.normal, plate.force) / plate.machine_stiffness;
-            const double undamped = dot(plate.normal, s.loading.of_plate(number).velocity);
-            if (dt > 0.0)
-                integrate_loaded(
-                    plate, undamped, bears_any(plate, s.surface.grain, s.grains), dt, damping);
+            if (dt > 0.0) integrate_loaded(s, number, s.surface.grain, dt, damping);
             continue;
         }
         if (dt > 0.0) plate.boundary_work += work_of_step(plate, before, dt);
     }
-}
-
-double solid_plate_energy(const Plate& plate)
-{
-    double sum = 0.0;
-    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
-        sum -= 0.5 * push(plate, i) * plate.opening[i];
-    if (!(plate.friction > 0.0)) return sum;
-    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-        const Vector force = axes_of(plate.shear_force, i);
-        sum += 0.5 * dot(force, force) / sliding_stiffness(plate, i);
-    }
-    return sum;
 }
 
 }  // namespace flexpm

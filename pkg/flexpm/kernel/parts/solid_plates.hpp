@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Plates on the ends of a specimen in space, and against the mantle of a disc:
-/// plate_contact.hpp there. A contact lies in the middle of each surface triangle, or where its
-/// shares say. SI units; forces of a plate on the specimen are positive along its normal, which
-/// points into it.
+/// @file  Plates against the surface triangles of a specimen in 3D. A contact lies in the middle of
+/// each triangle, or where its shares say. SI units; forces of a plate on the specimen are positive
+/// along its normal, which points into it.
 /// Deviation D20: it has the stiffness K_n of the grains' contacts times the triangle's area, and
 /// along the plate, if that is not smooth, K_s.
-/// Deviation D95: the spring of a soft machine has no mass, and a plate before one is where spring
-/// and contacts balance; on a seat it turns until they bear no moment.
 #pragma once
 
 #include <flexpm/kernel/assembly/solid_state.hpp>
+#include <flexpm/kernel/parts/plate_loading.hpp>
+#include <flexpm/kernel/parts/plate_points.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 
 #include <array>
@@ -54,75 +53,20 @@ void centre_position(const SolidState& s, Plate& plate);
 /// friction: as linear solutions have it. What does not touch them never does.
 void hold_touching(SolidState& s);
 
-/// Number of the plate that was laid as this one; -1 if there is none.
-int find_alike(const SolidState& s, const Plate& plate);
-
 /// A smooth plate for a side, with the stiffnesses of the grains' contacts, that touches nothing.
 Plate plain_plate(const SolidState& s, SolidSide side);
 
 /// Number of the first plate on a side; -1 if there is none.
-int find_plate(const SolidState& s, SolidSide side);
-
-/// Contact `index` of a plate along its normal [N/m].
-double point_stiffness(const Plate& plate, int index);
-/// The same along its face; 0: it is smooth [N/m].
-double sliding_stiffness(const Plate& plate, int index);
-
-/// Normal of contact `index`, into the specimen; of a jaw its own.
-Vector normal_at(const Plate& plate, int index);
+inline int find_plate(const SolidState& s, SolidSide side)
+{
+    return find_plate(s, static_cast<int>(side));
+}
 
 /// Add the forces of plates on the nodes of a block of grains, at their present places.
 void add_plate_forces(SolidState& s, int block);
 
-/// Let a load move a plate along its normal. Masses must be scaled again afterwards.
-/// @throws std::invalid_argument  if there is no such plate, or it is one of a line or a jaw
-void free_plate(SolidState& s, int plate);
-
-/// Let a pressure act on a plate that is free to move along its normal, see Plate::loaded [Pa].
-/// @throws std::invalid_argument  if there is no such plate, its mass is not scaled, or for a
-///         pressure below 0
-void press(SolidState& s, int plate, double pressure);
-
-/// Lay the spring of a soft machine behind a plate [N/m]. It has the plate's present force and
-/// gives way along the plate's normal; while a load moves the plate it follows from that.
-/// @throws std::invalid_argument  if there is no such plate, the stiffness is not above 0, the
-///         plate has another spring, or it is a jaw with friction
-void set_machine(SolidState& s, int plate, double stiffness);
-
-/// Bring plates to where the springs of their machines bear what their contacts do, and their seats
-/// no moment, at the end of a step that begins at the present places of the grains; crossheads are
-/// there already.
-void give_way(SolidState& s, double dt);
-
-/// How a plate follows what it touches, in a second.
-struct PlateRates {
-    double give = 0.0;  ///< what the spring of its machine becomes shorter by [m/s]
-    Vector turn;        ///< on its seat [rad/s]
-};
-
-/// Those of a plate as grains move.
-/// @param velocity  of all nodes [m/s]
-PlateRates rates_of(const SolidState& s, const Plate& plate, const Array<double>& velocity);
-
 /// Sum forces and works of all plates after the grains have moved by a step, and integrate the
 /// loaded ones.
 void sum_plates(SolidState& s, double dt, double damping);
-
-/// What a seated plate's face goes along its normal at contact `index` by each component of a turn
-/// [m]; nought without a seat.
-Vector seat_arm(const Plate& plate, int index);
-
-/// What the gap of contact `index` grows by as its plate follows, see PlateStiffness::add().
-/// @param give  part of a give [-]
-Vector opens(const Plate& plate, int index, double give);
-
-/// Turn on a seat of a plate's motion, which are a give and angles about seat_axes() [rad].
-Vector turn_of(const Plate& plate, Vector motion);
-
-/// Area on which a plate presses [m^2].
-double pressed_area(const Plate& plate);
-
-/// Stored energy of a plate's contacts [J].
-double solid_plate_energy(const Plate& plate);
 
 }  // namespace flexpm

@@ -184,7 +184,7 @@ PlatePush OneSidedPoints::plate_push(
     for (int k = 0; k < plate_points(plate); ++k) {
         const Vector force = point_force(now, i, k, point_way(i, k, moved, own));
         sum.force = sum.force + force;
-        sum.moment += point_arm(plate, k) * dot(force, point_normal(plate, k));
+        sum.moment += point_arm(plate, k).z * dot(force, point_normal(plate, k));
     }
     return sum;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/parts/plate_points.hpp>
 #include <flexpm/kernel/statics/static_solve.hpp>
 
 #include <vector>
@@ -26,8 +27,9 @@ struct PlateWay {
 
     Vector at(const Plate& plate, int point) const
     {
-        return turn == 0.0 ? displacement
-                           : displacement + turn * plate.arms[point] * point_normal(plate, point);
+        return turn == 0.0
+            ? displacement
+            : displacement + turn * seat_arm(plate, point).z * point_normal(plate, point);
     }
 };
 

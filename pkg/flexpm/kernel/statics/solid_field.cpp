@@ -2,6 +2,7 @@
 #include <flexpm/kernel/statics/solid_field.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/parts/soft_plate.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/statics/linear_solid.hpp>
@@ -98,7 +99,7 @@ void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& s
             const std::array<double, 3> shares = { corner_share(plate, i, 0),
                 corner_share(plate, i, 1), corner_share(plate, i, 2) };
             solid.presses.push_back(
-                { number, touches, nodes, shares, normal_at(plate, i), point_stiffness(plate, i),
+                { number, touches, nodes, shares, point_normal(plate, i), point_stiffness(plate, i),
                     sliding_stiffness(plate, i), opens(plate, i, plate.loaded ? 1.0 : 0.0) });
         }
     }

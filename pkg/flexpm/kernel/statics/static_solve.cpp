@@ -39,7 +39,7 @@ void add_plate_loads(
                 ? plate_springs(plate, i)
                 : plate_springs(plate, i, springs.plates[number][i]);
             Vector u = point_way(plate, i, of.plates[number], lag);
-            if (turn != 0.0) u = u + turn * plate.arms[i] * point_normal(plate, i);
+            if (turn != 0.0) u = u + turn * seat_arm(plate, i).z * point_normal(plate, i);
             const auto n = a.facets.nodes(p.facet);
             const auto part = facet_parts(p.weight);
             for (int r = 0; r < facet_nodes; ++r) {

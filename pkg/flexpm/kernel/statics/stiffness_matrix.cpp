@@ -117,7 +117,7 @@ LagAnswer lag_answer(const Assembly& a, const Plate& plate)
     for (int i = 0; i < plate_points(plate); ++i) {
         const PlatePoint p = plate_point(plate, i);
         const Point n = in_plane(point_normal(plate, i));
-        const double share = gives ? dot(plate.normal, n) : 0.0, arm = point_arm(plate, i);
+        const double share = gives ? dot(plate.normal, n) : 0.0, arm = point_arm(plate, i).z;
         const auto nodes = a.facets.nodes(p.facet);
         const auto parts = facet_parts(p.weight);
         const Point t = tangent_of(n);  // friction of a jaw has a part along the plate's normal
@@ -208,7 +208,7 @@ Vector point_way(const Plate& plate, int point, Vector displacement, const Plate
 {
     if (!is_soft(plate)) return displacement;
     return displacement - lag.give * plate.normal
-        + lag.turn * point_arm(plate, point) * point_normal(plate, point);
+        + lag.turn * point_arm(plate, point).z * point_normal(plate, point);
 }
 
 std::vector<StiffnessEntry> stiffness_entries(const Assembly& a, const GivenSprings& springs)

@@ -5,11 +5,12 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/core/rows_of_four.hpp>
 #include <flexpm/kernel/core/thread_team.hpp>
+#include <flexpm/kernel/forces/solid_pressure.hpp>
+#include <flexpm/kernel/parts/soft_plate.hpp>
+#include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/space_lanes/face_forces.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/space_lanes/solid_motion.hpp>
-#include <flexpm/kernel/parts/solid_plates.hpp>
-#include <flexpm/kernel/forces/solid_pressure.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step_works.hpp>

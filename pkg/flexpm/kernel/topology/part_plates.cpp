@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/parts/plate_points.hpp>
 #include <flexpm/kernel/topology/plate_lay.hpp>
 
 #include <algorithm>
@@ -215,7 +216,7 @@ int add_patch_plate(Assembly& a, const Patch& patch, const PlateContact& contact
 
 int find_patch_plate(const Assembly& a, const Patch& patch, const PlateContact& contact)
 {
-    return find_like(a, patch_plate(a, patch, contact));
+    return find_alike(a.plates, patch_plate(a, patch, contact));
 }
 
 int add_jaw_plate(Assembly& a, const Jaw& jaw, const PlateContact& contact)
@@ -225,7 +226,7 @@ int add_jaw_plate(Assembly& a, const Jaw& jaw, const PlateContact& contact)
 
 int find_jaw_plate(const Assembly& a, const Jaw& jaw, const PlateContact& contact)
 {
-    return find_like(a, jaw_plate(a, jaw, contact));
+    return find_alike(a.plates, jaw_plate(a, jaw, contact));
 }
 
 }  // namespace flexpm

@@ -4,8 +4,8 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 #include <flexpm/kernel/topology/plate_lay.hpp>
 
@@ -137,7 +137,7 @@ std::vector<int> add_side_plates(Assembly& a, int side, int pieces, const PlateC
 
 int find_side_plate(const Assembly& a, int side, const PlateContact& contact)
 {
-    return find_like(a, side_plates(a, side, 1, contact).front());
+    return find_alike(a.plates, side_plates(a, side, 1, contact).front());
 }
 
 int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)

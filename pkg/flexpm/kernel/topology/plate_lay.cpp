@@ -172,17 +172,4 @@ std::vector<int> add_plates(Assembly& a, const std::vector<Plate>& plates)
     return numbers;
 }
 
-int find_like(const Assembly& a, const Plate& p)
-{
-    for (std::size_t i = 0; i < a.plates.size(); ++i) {
-        const Plate& q = a.plates[i];
-        const bool alike = q.side == p.side && q.facets == p.facets && q.area == p.area
-            && q.normal.x == p.normal.x && q.normal.y == p.normal.y && q.friction == p.friction
-            && q.bonded == p.bonded && q.strip == p.strip && q.jaw_radius == p.jaw_radius
-            && q.seated == p.seated;
-        if (alike) return static_cast<int>(i);
-    }
-    return -1;
-}
-
 }  // namespace flexpm

@@ -46,8 +46,4 @@ void seat(const Assembly& a, Plate& p);
 /// Add plates that lie neither on held nodes nor on another plate; their numbers.
 std::vector<int> add_plates(Assembly& a, const std::vector<Plate>& plates);
 
-/// The plate that was laid like another one, -1 if none was. What was erased since is missing in
-/// both.
-int find_like(const Assembly& a, const Plate& p);
-
 }  // namespace flexpm
