@@ -4,11 +4,11 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/parts/node_sets.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/statics/static_solve.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
@@ -59,8 +59,8 @@ struct Ends {
 
 Ends hold_ends(Assembly& a, bool x = true, bool y = true)
 {
-    const int left = add_node_set(a, nodes_between(a, 0.0, size), true, true);
-    return { left, add_node_set(a, nodes_between(a, length - size, length), x, y) };
+    const int left = add_node_set(a, nodes_between(a, 0.0, size), { true, true, false });
+    return { left, add_node_set(a, nodes_between(a, length - size, length), { x, y, false }) };
 }
 
 void run(Assembly& a, int steps, double damping = 0.7)
@@ -76,7 +76,7 @@ void run(Assembly& a, int steps, double damping = 0.7)
 /// A loading at a constant velocity, started without a wave.
 void start(Assembly& a, int set, Point velocity, double spin)
 {
-    set_motion_of(a, set, velocity, spin);
+    set_motion_of(a, set, velocity, { 0.0, 0.0, spin });
     drive_node_sets(a, 1.0);
     start_elastically(a, true, Held::by_parts);
     drive_node_sets(a, 1.0);
@@ -164,10 +164,10 @@ TEST_CASE("What is held along one axis is free along the other")
 TEST_CASE("Nodes that turn about a point go round it, however far")
 {
     Assembly a = beam(GENERATE(false, true));
-    const int all = add_node_set(a, holdable_nodes(a), true, true);
+    const int all = add_node_set(a, holdable_nodes(a), { true, true, false });
     const Point pivot = { 0.01, -0.02 };
     set_pivot(a, all, pivot);
-    set_motion_of(a, all, {}, 1e-3);
+    set_motion_of(a, all, {}, { 0.0, 0.0, 1e-3 });
     drive_node_sets(a, 1.0);
     for (int g = 0; g < a.grains.count; ++g) {
         if (a.grains.is_rigid(g)) driven::prescribe_spin(a.grains, g, 1e-3);
@@ -218,7 +218,7 @@ TEST_CASE("Two ends that turn against each other load by the sum of their moment
     const auto [left, right] = hold_ends(a);
     PartGeometry parts = of_sets({ right }, {}, 1.0);
     parts.back_sets = { left };
-    set_motion_of(a, left, {}, -1e-9);
+    set_motion_of(a, left, {}, { 0.0, 0.0, -1e-9 });
     start(a, right, {}, 1e-9);
     run(a, 1000);
     CHECK(part_load(a, parts) == a.node_sets[right].moment.z - a.node_sets[left].moment.z);
@@ -245,7 +245,7 @@ TEST_CASE("A loading that changes its velocity takes one that floats along, and 
     reset_energy_balance(a);
     run(a, 200);
     const double before = a.node_sets[right].velocity.y, moment = a.loading.sets[right].moment.z;
-    set_motion_of(a, right, {}, 2e-9);
+    set_motion_of(a, right, {}, { 0.0, 0.0, 2e-9 });
     change_loading(a, 2.0);
     drive_node_sets(a, 1.0);
     CHECK(a.node_sets[right].velocity.y == Approx(2.0 * before).epsilon(0.05));
@@ -265,7 +265,7 @@ TEST_CASE("A velocity that is set between steps goes with the works")
     const int right = hold_ends(a).right;
     reset_energy_balance(a);
     for (double velocity : { 1e-10, 3e-10, -1e-10 }) {
-        set_motion_of(a, right, { velocity, 0.5 * velocity }, 10.0 * velocity);
+        set_motion_of(a, right, { velocity, 0.5 * velocity }, { 0.0, 0.0, 10.0 * velocity });
         drive_node_sets(a, 1.0);
         run(a, 100);
     }
@@ -276,13 +276,14 @@ TEST_CASE("A velocity that is set between steps goes with the works")
 TEST_CASE("An erased grain leaves its set, which may become empty")
 {
     Assembly a = beam(GENERATE(false, true));
-    const int grain = 5, set = add_node_set(a, { a.grains.centre(grain) }, true, true);
+    const int grain = 5, set = add_node_set(a, { a.grains.centre(grain) }, { true, true, false });
     remove_grain(a, grain);
     CHECK(a.node_sets[set].nodes.empty());
     let_float(a, set);
     update_node_sets(a, 1.0, 0.7);
     CHECK(a.node_sets[set].velocity.x == 0.0);
-    const int one = add_node_set(a, { a.grains.centre(0), a.grains.centre(1) }, true, true);
+    const int one =
+        add_node_set(a, { a.grains.centre(0), a.grains.centre(1) }, { true, true, false });
     remove_grain(a, 0);
     CHECK(a.node_sets[one].grains == std::vector<int> { 1 });
     for (int n : holdable_nodes(a))
@@ -293,27 +294,31 @@ TEST_CASE("Sets that hold nothing, what is held, or what a plate presses are ref
 {
     Assembly a = beam(GENERATE(false, true));
     const std::vector<int> left = nodes_between(a, 0.0, size);
-    CHECK_THROWS_WITH(add_node_set(a, {}, true, true), Contains("nodes of a set"));
-    CHECK_THROWS_WITH(add_node_set(a, { -7 }, true, true), Contains("that a set may hold"));
-    const int set = add_node_set(a, left, true, false);
-    CHECK_THROWS_WITH(add_node_set(a, left, true, true), Contains("is held already"));
+    CHECK_THROWS_WITH(add_node_set(a, {}, { true, true, false }), Contains("nodes of a set"));
+    CHECK_THROWS_WITH(
+        add_node_set(a, { -7 }, { true, true, false }), Contains("that a set may hold"));
+    const int set = add_node_set(a, left, { true, false, false });
+    CHECK_THROWS_WITH(add_node_set(a, left, { true, true, false }), Contains("is held already"));
     CHECK(a.node_sets.size() == 1);
-    add_node_set(a, left, false, true);
+    add_node_set(a, left, { false, true, false });
     CHECK_THROWS_WITH(
         add_patch_plate(a, { { 0.0, height / 2 }, height, {} }, {}), Contains("lies on a plate"));
     CHECK_THROWS_WITH(add_side_plates(a, 3, 1, {}), Contains("lies on a plate"));
     add_side_plates(a, 1, 1, {});
     const std::vector<int> right = nodes_between(a, length - size, length);
-    CHECK_THROWS_WITH(add_node_set(a, right, true, true), Contains("lies on a plate"));
-    CHECK_THROWS_WITH(set_motion_of(a, 9, {}, 0.0), Contains("node set"));
-    CHECK_THROWS_WITH(set_motion_of(a, -1, {}, 0.0), Contains("node set"));
-    CHECK_THROWS_WITH(set_motion_of(a, set, { NAN, 0.0 }, 0.0), Contains("velocity"));
-    CHECK_THROWS_WITH(set_motion_of(a, set, {}, NAN), Contains("spin"));
-    const int slides = add_node_set(a, nodes_between(a, 2.0 * size, 3.0 * size), true, false);
-    CHECK_THROWS_WITH(set_motion_of(a, slides, { 1e-9, 1e-9 }, 0.0), Contains("it is free there"));
+    CHECK_THROWS_WITH(add_node_set(a, right, { true, true, false }), Contains("lies on a plate"));
+    CHECK_THROWS_WITH(set_motion_of(a, 9, {}, { 0.0, 0.0, 0.0 }), Contains("node set"));
+    CHECK_THROWS_WITH(set_motion_of(a, -1, {}, { 0.0, 0.0, 0.0 }), Contains("node set"));
+    CHECK_THROWS_WITH(set_motion_of(a, set, { NAN, 0.0 }, { 0.0, 0.0, 0.0 }), Contains("velocity"));
+    CHECK_THROWS_WITH(set_motion_of(a, set, {}, { 0.0, 0.0, NAN }), Contains("spin"));
+    const int slides =
+        add_node_set(a, nodes_between(a, 2.0 * size, 3.0 * size), { true, false, false });
+    CHECK_THROWS_WITH(
+        set_motion_of(a, slides, { 1e-9, 1e-9 }, { 0.0, 0.0, 0.0 }), Contains("it is free there"));
     CHECK(a.node_sets[slides].velocity.x == 0.0);
     let_float(a, set);
-    CHECK_THROWS_WITH(set_motion_of(a, set, { 1e-9, 0.0 }, 0.0), Contains("turns freely"));
+    CHECK_THROWS_WITH(
+        set_motion_of(a, set, { 1e-9, 0.0 }, { 0.0, 0.0, 0.0 }), Contains("turns freely"));
     CHECK_THROWS_WITH(set_pivot(a, set, { NAN, 0.0 }), Contains("pivot"));
     CHECK_THROWS_WITH(let_float(a, 9), Contains("node set"));
 }

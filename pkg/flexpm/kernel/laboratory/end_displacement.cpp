@@ -2,9 +2,9 @@
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/plate_contact.hpp>
-#include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ void hold_nodes(Assembly& a, const EndLoading& asked, ElasticLoading& loading)
     set_pressure(a, top_side, 0.0);
     for (int node : top)
         a.grains.prescribed[a.grains.component(node, axial)] = 0;
-    loading.sets.push_back(add_node_set(a, top, false, true));
+    loading.sets.push_back(add_node_set(a, top, { false, true, false }));
 }
 
 /// Keep the grain in the middle of the lower end where it is along it, as smooth plates do not.

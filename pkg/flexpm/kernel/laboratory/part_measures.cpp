@@ -3,11 +3,11 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/parts/node_sets.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/parts/rigid_support.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 
@@ -191,8 +191,7 @@ double extent_along(const Grains& grains, Vector direction)
 {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (int g = 0; g < grains.count; ++g) {
-        const double middle =
-            dot(grains.vector(grains.reference, grains.centre(g)), direction);
+        const double middle = dot(grains.vector(grains.reference, grains.centre(g)), direction);
         low = std::min(low, middle - grains.radius[g]);
         high = std::max(high, middle + grains.radius[g]);
     }
@@ -340,9 +339,9 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
     }
     moved.loading.sets.clear();
     for (int s : parts.driven_sets)
-        set_motion_of(moved, s, parts.direction, parts.turn.z);
+        set_motion_of(moved, s, parts.direction, parts.turn);
     for (int s : parts.back_sets)
-        set_motion_of(moved, s, {}, -parts.turn.z);
+        set_motion_of(moved, s, {}, -parts.turn);
     drive_node_sets(moved, unit_way);
     require_resistance(moved);
     // a unit velocity turns rigid grains far: their contacts are looked at in the solution itself

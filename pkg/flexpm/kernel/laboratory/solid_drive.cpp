@@ -3,7 +3,7 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/parts/solid_sets.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/plate_loading.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
@@ -25,8 +25,9 @@ void set_velocity(SolidState& s, const SolidDrive& drive, double velocity, doubl
     }
     drive.for_each_set([&](int set, double sense) {
         const Vector rate = sense * velocity * drive.direction;
-        set_motion_of(s, set, drive.turns ? Vector {} : rate, drive.turns ? rate : Vector {}, dt);
+        set_motion_of(s, set, drive.turns ? Vector {} : rate, drive.turns ? rate : Vector {});
     });
+    drive_node_sets(s, dt);
     if (drive.moves_top()) prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
 }
 

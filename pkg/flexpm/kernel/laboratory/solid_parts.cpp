@@ -6,7 +6,7 @@
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/parts/solid_sets.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/plate_springs.hpp>
 #include <flexpm/kernel/parts/rigid_support.hpp>
 #include <flexpm/kernel/parts/soft_plate.hpp>
@@ -84,7 +84,7 @@ SolidPartState moved_state(SolidState s, const PartGeometry& parts, double dt)
     found.softening = elastic_strain(found.state, field, 1.0);  // a way: the field is that of 1 m
     found.way = std::min(small_strain * parts.length, small_part * found.softening);
     start(found.state, drive_of(parts), field, found.way, 1.0, true, dt);
-    sum_node_sets(found.state, 0.0);
+    update_node_sets(found.state, 0.0, 0.0);
     found.load = part_load(found.state, parts);
     return found;
 }
@@ -328,7 +328,7 @@ SolidPartState pressed_part_state(
         if (plate.seated) plate.turn = plate.turn + found.way * motion.turn;
     }
     begin_from(found.state, field, found.way, 0.0);
-    sum_node_sets(found.state, 0.0);
+    update_node_sets(found.state, 0.0, 0.0);
     found.load = part_load(found.state, parts);
     return found;
 }

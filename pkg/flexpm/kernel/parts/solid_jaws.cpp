@@ -3,7 +3,7 @@
 
 #include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/parts/solid_sets.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/parts/surface_pieces.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/PlateController.hpp>
 
+#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/plate_contact.hpp>
-#include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 namespace yade {
@@ -19,9 +19,9 @@ void PlateController::action()
 	for (int plate : plates)
 		flexpm::set_velocity(assembly, plate, { drivenAt[0], drivenAt[1] });
 	for (int set : nodeSets)
-		flexpm::set_motion_of(assembly, set, { drivenAt[0], drivenAt[1] }, drivenAt[2]);
+		flexpm::set_motion_of(assembly, set, { drivenAt[0], drivenAt[1] }, { 0., 0., drivenAt[2] });
 	for (int set : backSets)
-		flexpm::set_motion_of(assembly, set, {}, -drivenAt[2]);
+		flexpm::set_motion_of(assembly, set, {}, { 0., 0., -drivenAt[2] });
 	flexpm::drive_node_sets(assembly, scene->dt);
 	if (undampedLoading && started && ratio != 1)
 		flexpm::change_loading(assembly, ratio);

@@ -2,10 +2,10 @@
 /// @file  One step and what comes at its periods.
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
+#include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/assembly/state_check.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/assembly/solid_plan.hpp>
-#include <flexpm/kernel/parts/solid_sets.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/step/solid_step.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 #include <flexpm/kernel/topology/loose_grains.hpp>
@@ -54,7 +54,7 @@ void GrainSolver::takeSolidStep()
 		diverged = true;
 		throw;
 	}
-	flexpm::sum_node_sets(space, scene->dt);
+	flexpm::update_node_sets(space, scene->dt, stepOptions().damping);
 }
 
 flexpm::StepOptions GrainSolver::stepOptions() const

@@ -10,7 +10,6 @@
 #include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
-#include <flexpm/kernel/parts/solid_sets.hpp>
 
 namespace yade {
 
@@ -23,7 +22,10 @@ namespace {
 	}
 
 	/// An angle or a moment: in 2D a number, about z.
-	py::object turnOf(const flexpm::Grains& grains, flexpm::Vector v) { return grains.layout.dimension == 2 ? py::object(v.z) : py::make_tuple(v.x, v.y, v.z); }
+	py::object turnOf(const flexpm::Grains& grains, flexpm::Vector v)
+	{
+		return grains.layout.dimension == 2 ? py::object(v.z) : py::make_tuple(v.x, v.y, v.z);
+	}
 
 } // namespace
 
@@ -52,7 +54,7 @@ py::tuple GrainSolver::sectionNodes(Real place, Vector3r direction, Real width)
 py::tuple GrainSolver::nodePlaces(bool bonded)
 {
 	current();
-	const auto          nodes = onState([](const auto& state) { return flexpm::holdable_nodes(state); });
+	const auto          nodes = flexpm::holdable_nodes(state());
 	const int           axes  = dimension();
 	std::vector<double> places;
 	for (int node : nodes) {
@@ -66,7 +68,7 @@ py::tuple GrainSolver::nodePlaces(bool bonded)
 int GrainSolver::addNodeSet(vector<int> nodes, bool x, bool y, bool z)
 {
 	current();
-	return solid() ? flexpm::add_node_set(space, nodes, { x, y, z }) : flexpm::add_node_set(assembly, nodes, x, y);
+	return onState([&](auto& state) { return flexpm::add_node_set(state, nodes, { x, y, z && solid() }); });
 }
 
 void GrainSolver::turnNodeSet(int set, py::object about)
@@ -76,18 +78,19 @@ void GrainSolver::turnNodeSet(int set, py::object about)
 		return flexpm::let_float(assembly, set);
 	}
 	const Vector3r pivot = py::extract<Vector3r>(about);
-	onState([&](auto& state) { flexpm::set_pivot(state, set, fromYade(pivot)); });
+	flexpm::set_pivot(state(), set, fromYade(pivot));
 }
 
 void GrainSolver::moveNodeSet(int set, Vector3r velocity, Vector3r spin)
 {
 	const Real dt = Omega::instance().getScene()->dt;
 	if (solid()) {
-		flexpm::set_motion_of(space, set, fromYade(velocity), fromYade(spin), dt);
+		flexpm::set_motion_of(space, set, fromYade(velocity), fromYade(spin));
+		flexpm::drive_node_sets(space, dt);
 		flexpm::promise_work(space, dt);
 		return;
 	}
-	flexpm::set_motion_of(assembly, set, { velocity[0], velocity[1] }, velocity[2] + spin[2]);
+	flexpm::set_motion_of(assembly, set, { velocity[0], velocity[1] }, { 0., 0., velocity[2] + spin[2] });
 	flexpm::drive_node_sets(assembly, dt);
 }
 
