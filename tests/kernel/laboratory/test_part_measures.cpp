@@ -4,17 +4,17 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
+#include <flexpm/kernel/parts/part_plates.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 #include <flexpm/kernel/statics/unilateral_solve.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
-#include <flexpm/kernel/topology/part_plates.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 
 #include "support/specimens.hpp"
@@ -189,7 +189,8 @@ TEST_CASE("Gauges read what their nodes and plates move, each on its side of a n
     CHECK_THROWS_WITH(plate_way(a, 1, { 0.0, 1.0 }), Catch::Contains("plate"));
     CHECK_THROWS_WITH(gauge_opening(a.grains, a.grains.displacement, { 0, 1 << 30 }, { 1.0, 0.0 }),
         Catch::Contains("node"));
-    CHECK_THROWS_WITH(gauge_points(a.grains, { 0.0, 0.0 }, { 0.0, 0.0 }), Catch::Contains("length"));
+    CHECK_THROWS_WITH(
+        gauge_points(a.grains, { 0.0, 0.0 }, { 0.0, 0.0 }), Catch::Contains("length"));
 }
 
 TEST_CASE("A section reads the mean way of the nodes in its band")
@@ -215,9 +216,12 @@ TEST_CASE("A section reads the mean way of the nodes in its band")
     for (int n : section_at(a.grains, 0.01, up, 0.002).nodes)
         CHECK(grain_node(a.grains, n).grain != gone);
     CHECK_THROWS_WITH(section_at(a.grains, 5.0, up, 0.001), Catch::Contains("section"));
-    CHECK_THROWS_WITH(mean_way(a.grains, a.grains.displacement, {}, up), Catch::Contains("at least 1"));
-    CHECK_THROWS_WITH(mean_way(a.grains, a.grains.displacement, { -1 }, up), Catch::Contains("node"));
-    CHECK_THROWS_WITH(mean_way(a.grains, a.grains.displacement, { 1 << 30 }, up), Catch::Contains("node"));
+    CHECK_THROWS_WITH(
+        mean_way(a.grains, a.grains.displacement, {}, up), Catch::Contains("at least 1"));
+    CHECK_THROWS_WITH(
+        mean_way(a.grains, a.grains.displacement, { -1 }, up), Catch::Contains("node"));
+    CHECK_THROWS_WITH(
+        mean_way(a.grains, a.grains.displacement, { 1 << 30 }, up), Catch::Contains("node"));
 }
 
 TEST_CASE("The scales of a bar between parts are those of its length and modulus")

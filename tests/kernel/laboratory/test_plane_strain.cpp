@@ -4,13 +4,14 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
-#include <flexpm/kernel/laboratory/steady_motion.hpp>
-#include <flexpm/kernel/measure/energy_sums.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
+#include <flexpm/kernel/laboratory/steady_motion.hpp>
+#include <flexpm/kernel/measure/energy_sums.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
+#include <flexpm/kernel/parts/solid_patches.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>

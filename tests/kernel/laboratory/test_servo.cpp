@@ -4,15 +4,15 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
 #include <flexpm/kernel/laboratory/servo.hpp>
+#include <flexpm/kernel/parts/part_plates.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
-#include <flexpm/kernel/topology/part_plates.hpp>
 
 #include "support/specimens.hpp"
 

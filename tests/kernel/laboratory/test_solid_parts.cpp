@@ -3,11 +3,12 @@
 /// of them, one that a load moves, works.
 #include "support/catch.hpp"
 
+#include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
-#include <flexpm/kernel/laboratory/gauge.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
+#include <flexpm/kernel/parts/solid_patches.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 
 #include "support/solid_states.hpp"
@@ -193,7 +194,8 @@ TEST_CASE("A plate that no load moves takes none", "[solids]")
     CHECK(gauge.first != gauge.second);
     CHECK(gauge_length(s.grains, gauge) < 2.0 * a);
     CHECK(gauge_opening(s.grains, s.grains.displacement, gauge, up) == 0.0);
-    CHECK_THROWS_WITH(gauge_points(s.grains, middle, middle), Catch::Contains("length of a gauge = 0 m"));
+    CHECK_THROWS_WITH(
+        gauge_points(s.grains, middle, middle), Catch::Contains("length of a gauge = 0 m"));
 }
 
 namespace {

@@ -8,12 +8,12 @@
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
+#include <flexpm/kernel/parts/part_plates.hpp>
 #include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/statics/static_solve.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
-#include <flexpm/kernel/topology/part_plates.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 #include <flexpm/kernel/topology/removal.hpp>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Rigid plates: stiffness in series, unilateral and bonded contacts, friction, pressure,
 /// energy. SI units; forces on the specimen positive along the plate's normal.
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/kernel/parts/part_plates.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
-#include <flexpm/kernel/topology/part_plates.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 
 #include <flexpm/kernel/step/mass_scaling.hpp>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Plates that turn on a seat: no moment there, closed forms of springs in a row. SI units.
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/parts/part_plates.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/statics/elastic_state.hpp>
 #include <flexpm/kernel/statics/static_solve.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/step.hpp>
-#include <flexpm/kernel/topology/part_plates.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 
 #include "support/catch.hpp"

@@ -7,6 +7,7 @@
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
 #include <flexpm/kernel/parts/solid_jaws.hpp>
+#include <flexpm/kernel/parts/solid_patches.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 
 #include "support/solid_states.hpp"

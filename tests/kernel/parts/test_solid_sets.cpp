@@ -6,6 +6,7 @@
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
+#include <flexpm/kernel/parts/solid_patches.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/step/solid_step.hpp>

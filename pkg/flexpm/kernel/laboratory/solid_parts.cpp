@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/laboratory/solid_parts.hpp>
 
-#include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
@@ -10,15 +9,11 @@
 #include <flexpm/kernel/parts/plate_springs.hpp>
 #include <flexpm/kernel/parts/rigid_support.hpp>
 #include <flexpm/kernel/parts/soft_plate.hpp>
-#include <flexpm/kernel/parts/solid_jaws.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
-#include <flexpm/kernel/parts/surface_pieces.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -26,26 +21,9 @@ namespace flexpm {
 
 namespace {
 
-/// Gap over the size of the box that is none: round-off [-].
-constexpr double no_gap = 1e-9;
-/// Largest slope of a face to a seated plate, whose turns are small.
-constexpr double steepest = 0.5;
-/// Looks at all contacts until a plate lies, for each of them: more are none that helps.
-constexpr std::size_t most_looks = 10;
 /// Strain at which all is linear, but no round-off, and such a part of the way to the first
 /// softening, where the length of a test is none of the specimen's [-].
 constexpr double small_strain = 1e-7, small_part = 0.1;
-
-/// What lies in a box.
-std::vector<HalfSpace> box_of(const SolidPatch& patch)
-{
-    std::vector<HalfSpace> box;
-    for (const Vector along : { Vector { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } }) {
-        box.push_back({ -1.0 * along, -dot(along, patch.low) });
-        box.push_back({ along, dot(along, patch.high) });
-    }
-    return box;
-}
 
 /// Growth of the forces of plates along a direction as grains move [N/s].
 double push_rate(const SolidState& s, const std::vector<int>& plates, Vector direction,
@@ -134,161 +112,7 @@ void require_resistance(const SolidState& s, const PartGeometry& parts)
     support.require_resistance();
 }
 
-/// A contact as a plate sees it that turns on its seat, which is at the origin.
-struct SeatPoint {
-    Point arm;   ///< along both axes of its turns [m]
-    double gap;  ///< [m]
-};
-
-/// Shares of three corners in a place of their plane.
-std::array<double, 3> shares_in(const std::array<SeatPoint, 3>& corners, Point place)
-{
-    std::array<double, 3> shares {};
-    double whole = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        shares[k] = cross(corners[(k + 1) % 3].arm - place, corners[(k + 2) % 3].arm - place);
-        whole += shares[k];
-    }
-    for (double& share : shares)
-        share /= whole;
-    return shares;
-}
-
-/// Gap of the plane of three contacts at a place.
-double height_at(const std::array<SeatPoint, 3>& corners, Point place)
-{
-    const auto shares = shares_in(corners, place);
-    return shares[0] * corners[0].gap + shares[1] * corners[1].gap + shares[2] * corners[2].gap;
-}
-
-/// The three contacts on which a plate lies that was let down at its seat: the seat is over them,
-/// and no contact is nearer than their plane. A contact that is takes the place of one of three, by
-/// the simplex method; at first these are far out, and high.
-/// @param on    what it lies on at first
-/// @param none  distance that is round-off [m]
-std::array<SeatPoint, 3> lain_on(
-    const std::vector<SeatPoint>& points, std::array<SeatPoint, 3> on, double none)
-{
-    for (std::size_t look = 0; look < most_looks * points.size(); ++look) {
-        const SeatPoint* nearest = nullptr;
-        double below = none;
-        for (const SeatPoint& p : points) {
-            const double depth = height_at(on, p.arm) - p.gap;
-            if (!(depth > below)) continue;
-            below = depth;
-            nearest = &p;
-        }
-        if (!nearest) break;
-        const auto seat = shares_in(on, {}), next = shares_in(on, nearest->arm);
-        int leaves = -1;
-        for (int k = 0; k < 3; ++k)
-            if (next[k] > no_gap && (leaves < 0 || seat[k] * next[leaves] < seat[leaves] * next[k]))
-                leaves = k;
-        on[leaves] = *nearest;
-    }
-    return on;
-}
-
-/// Let a plate turn about the middle of its face, and lay it down on what is before it, as it lies
-/// before it is loaded. One that is bonded lies on all of its contacts as it is.
-/// @param places  of its contacts [m]
-void seat(Plate& p, const std::vector<Vector>& places)
-{
-    const auto [first, second] = seat_axes(p.normal);
-    const double size = std::sqrt(p.width);
-    std::vector<SeatPoint> points;
-    double reach = 0.0, high = 0.0;
-    p.seated = true;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        Vector arm = cross(places[i] - p.position, p.normal);
-        if (norm(arm) < no_gap * size) arm = {};
-        p.arms.insert(p.arms.end(), { arm.x, arm.y, arm.z });
-        points.push_back({ { dot(arm, first), dot(arm, second) }, p.gap[i] });
-        reach = std::max(reach, norm(arm));
-        high = std::max(high, p.gap[i]);
-    }
-    const double far = 10.0 * reach, above = 1e6 * (high + size);
-    const auto on = lain_on(points,
-        { SeatPoint { { far, 0.0 }, above }, SeatPoint { { -0.5 * far, 0.8 * far }, above },
-            SeatPoint { { -0.5 * far, -0.8 * far }, above } },
-        no_gap * size);
-    for (const SeatPoint& corner : on) {
-        if (corner.gap < above) continue;
-        refuse("contacts of a seated plate", static_cast<double>(places.size()), "",
-            "must be at least 3, not in a line, around its middle");
-    }
-    if (p.bonded) return;
-    const double at_seat = height_at(on, {});
-    p.turn = ((height_at(on, { reach, 0.0 }) - at_seat) / reach) * first
-        + ((height_at(on, { 0.0, reach }) - at_seat) / reach) * second;
-    if (!(norm(p.turn) <= steepest)) {
-        refuse("slope of what is before a seated plate", norm(p.turn), "",
-            "must be <= " + number(steepest) + "; give another normal");
-    }
-    const double face = dot(p.normal, places.front()) - p.gap.front() + at_seat;
-    p.position = p.position + (face - dot(p.normal, p.position)) * p.normal;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const double turned = dot(point_arm(p, static_cast<int>(i)), p.turn);
-        p.gap[i] -= at_seat;
-        if (std::fabs(p.gap[i] - turned) < no_gap * size) p.gap[i] = turned;  // it lies there
-        p.opening[i] = p.gap[i] - turned;
-    }
-}
-
-Plate plate_before(const SolidState& s, const SolidPatch& patch)
-{
-    check_not_negative("friction of a plate", patch.friction, "");
-    if (patch.bonded && patch.friction > 0.0)
-        refuse("friction of a plate", patch.friction, "", "must be 0 of one that is bonded");
-    if (!(std::fabs(norm(patch.normal) - 1.0) < no_gap))
-        refuse("normal of a plate", norm(patch.normal), "", "must be a unit vector");
-    Plate p = plain_plate(s, SolidSide::bottom);
-    p.side = -1;
-    lay_strip(p, patch.strip);
-    p.normal = patch.normal;
-    p.bonded = patch.bonded;
-    double nearest = std::numeric_limits<double>::infinity();
-    std::vector<Vector> places;
-    const std::vector<HalfSpace> box = box_of(patch);
-    for (int t = 0; t < static_cast<int>(s.surface.grain.size()); ++t) {
-        const Vector outwards = area_vector(s, t);
-        if (!faces(p, outwards)) continue;
-        const Piece piece = piece_of(s, t, box);
-        if (piece.share == 0.0) continue;
-        add_touch(s, p, t, piece);
-        p.width += p.area.back();
-        p.position = p.position + p.area.back() * piece.place;
-        p.gap.push_back(dot(p.normal, piece.place));
-        places.push_back(piece.place);
-        nearest = std::min(nearest, p.gap.back());
-    }
-    if (p.facets.empty()) {
-        refuse("triangles before a plate", 0.0, "", "must be above 0; lay it on the specimen");
-    }
-    p.position = (1.0 / p.width) * p.position;
-    const double none = no_gap * norm(patch.high - patch.low);
-    for (double& gap : p.gap)
-        gap = p.bonded || gap - nearest < none ? 0.0 : gap - nearest;
-    p.opening = p.gap;
-    if (patch.friction > 0.0) roughen(p, patch.friction);
-    if (patch.seated) seat(p, places);
-    return p;
-}
-
 }  // namespace
-
-int add_patch_plate(SolidState& s, const SolidPatch& patch)
-{
-    const Plate plate = plate_before(s, patch);
-    require_apart(s, plate);
-    require_bare(s, plate);
-    return add_plate(s, plate);
-}
-
-int find_patch_plate(const SolidState& s, const SolidPatch& patch)
-{
-    return find_alike(s.plates, plate_before(s, patch));
-}
 
 SolidDrive drive_of(const PartGeometry& parts)
 {

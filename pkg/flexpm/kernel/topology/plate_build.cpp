@@ -6,8 +6,8 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/parts/plate_contact.hpp>
+#include <flexpm/kernel/parts/plate_lay.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
-#include <flexpm/kernel/topology/plate_lay.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// @file  Plates laid against sides of a specimen or apart from it, paper Sec. 4.1. SI units.
 #pragma once
 
-#include <flexpm/kernel/topology/plate_lay.hpp>
+#include <flexpm/kernel/parts/plate_lay.hpp>
 
 #include <vector>
 

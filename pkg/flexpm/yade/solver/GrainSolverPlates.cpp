@@ -2,7 +2,7 @@
 /// @file  Plates that scripts lay on a specimen in 2D.
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
-#include <flexpm/kernel/topology/part_plates.hpp>
+#include <flexpm/kernel/parts/part_plates.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 
 namespace yade {

@@ -4,8 +4,8 @@
 
 #include <flexpm/kernel/laboratory/solid_beam.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
-#include <flexpm/kernel/laboratory/solid_parts.hpp>
 #include <flexpm/kernel/parts/solid_jaws.hpp>
+#include <flexpm/kernel/parts/solid_patches.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 
 namespace yade {

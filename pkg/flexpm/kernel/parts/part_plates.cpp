@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Supports and jaws find the parts of facets that they bear.
-#include <flexpm/kernel/topology/part_plates.hpp>
+#include <flexpm/kernel/parts/part_plates.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/parts/plate_lay.hpp>
 #include <flexpm/kernel/parts/plate_points.hpp>
-#include <flexpm/kernel/topology/plate_lay.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Points of plates, seats, and where two plates would take the same facet.
-#include <flexpm/kernel/topology/plate_lay.hpp>
+#include <flexpm/kernel/parts/plate_lay.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>

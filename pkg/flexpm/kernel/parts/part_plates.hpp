@@ -2,7 +2,7 @@
 /// @file  Plates laid against a part of the outline: supports and jaws. SI units.
 #pragma once
 
-#include <flexpm/kernel/topology/plate_lay.hpp>
+#include <flexpm/kernel/parts/plate_lay.hpp>
 
 namespace flexpm {
 
