@@ -67,7 +67,7 @@ def measure_kernel(build: Path) -> None:
         *("cmake", "-S", ".", "-B", build, "-G", "Ninja", "--log-level=ERROR", "-Wno-dev"),
         *("-DFLEXPM_KERNEL_ONLY=ON", "-DFLEXPM_COVERAGE=ON", "-DCMAKE_CXX_COMPILER=g++"),
         *("-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG="),
-        "-DCGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE=TRUE",
+        *("-DFLEXPM_UNITY=OFF", "-DCGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE=TRUE"),
     )
     run("ninja", "-C", build, "-j2", "--quiet", "kernel_tests")
     for old in build.rglob("*.gcda"):

@@ -18,9 +18,9 @@ namespace {
 constexpr int most_rounds = 400;
 constexpr double area_tolerance = 0.01;  // of the mean area
 
-using Cell = std::vector<InnerCorner>;
+using InnerCell = std::vector<InnerCorner>;
 
-std::vector<Point> points_of(const Cell& cell)
+std::vector<Point> points_of(const InnerCell& cell)
 {
     std::vector<Point> points;
     for (const InnerCorner& c : cell)
@@ -59,7 +59,7 @@ std::vector<Point> first_seeds(const std::vector<Point>& polygon, int count)
 
 /// Cut a cell down to where `offset + slope . x` is not positive; beyond the new edge lies
 /// `beyond`.
-void clip(Cell& cell, Point slope, double offset, Beyond beyond, Cell& scratch)
+void clip(InnerCell& cell, Point slope, double offset, Beyond beyond, InnerCell& scratch)
 {
     const auto value = [&](Point p) { return dot(slope, p) + offset; };
     scratch.clear();
@@ -79,9 +79,9 @@ void cut_cells(
     const std::vector<Point>& polygon, const std::vector<double>& weights, InnerPacking& packing)
 {
     const int count = static_cast<int>(packing.seeds.size());
-    Cell scratch;
+    InnerCell scratch;
     for (int i = 0; i < count; ++i) {
-        Cell& cell = packing.cells[i];
+        InnerCell& cell = packing.cells[i];
         cell.clear();
         for (std::size_t k = 0; k < polygon.size(); ++k) {
             cell.push_back({ polygon[k], { Beyond::Kind::edge, static_cast<int>(k) } });
@@ -102,7 +102,7 @@ void cut_cells(
 double growth(const InnerPacking& packing, int cell)
 {
     double sum = 0.0;
-    const Cell& c = packing.cells[cell];
+    const InnerCell& c = packing.cells[cell];
     for (std::size_t k = 0; k < c.size(); ++k) {
         if (!c[k].beyond.is_seed()) continue;
         const Point a = c[k].point, b = c[(k + 1) % c.size()].point;
@@ -115,7 +115,7 @@ double growth(const InnerPacking& packing, int cell)
 bool has_empty_cell(const InnerPacking& packing)
 {
     return std::any_of(packing.cells.begin(), packing.cells.end(),
-        [](const Cell& cell) { return cell.size() < 3; });
+        [](const InnerCell& cell) { return cell.size() < 3; });
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ InnerPacking relax_seeds(const std::vector<Point>& polygon, int count)
     std::vector<Point> local;
     for (Point p : polygon)
         local.push_back(p - shape.centroid);
-    InnerPacking packing { first_seeds(local, count), std::vector<Cell>(count) };
+    InnerPacking packing { first_seeds(local, count), std::vector<InnerCell>(count) };
     std::vector<double> weights(count, 0.0);
     const double mean = shape.area / count;
     double best = std::numeric_limits<double>::infinity();
@@ -164,7 +164,7 @@ InnerPacking relax_seeds(const std::vector<Point>& polygon, int count)
     }
     for (Point& p : packing.seeds)
         p = p + shape.centroid;
-    for (Cell& cell : packing.cells) {
+    for (InnerCell& cell : packing.cells) {
         for (InnerCorner& c : cell)
             c.point = c.point + shape.centroid;
     }

@@ -2,6 +2,7 @@
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/plate_loading.hpp>
@@ -15,8 +16,6 @@ namespace flexpm {
 
 namespace {
 
-constexpr int axial = 2;
-
 void set_velocity(SolidState& s, const SolidDrive& drive, double velocity, double dt)
 {
     for (int plate : drive.plates) {
@@ -28,7 +27,7 @@ void set_velocity(SolidState& s, const SolidDrive& drive, double velocity, doubl
         set_motion_of(s, set, drive.turns ? Vector {} : rate, drive.turns ? rate : Vector {});
     });
     drive_node_sets(s, dt);
-    if (drive.moves_top()) prescribe(s, side_nodes(s, SolidSide::top), axial, velocity);
+    if (drive.moves_top()) prescribe(s, side_nodes(s, SolidSide::top), z_axis, velocity);
 }
 
 /// Part of the way of its crosshead that a driven plate goes, by a linear solution [-]: 1 without a
@@ -174,7 +173,7 @@ double velocity_of(const SolidState& s, const SolidDrive& drive)
         const NodeSet& first = s.node_sets[drive.sets.front()];
         return dot(drive.turns ? first.spin : first.velocity, drive.direction);
     }
-    return s.grains.velocity[s.grains.component(side_nodes(s, SolidSide::top).front(), axial)];
+    return s.grains.velocity[s.grains.component(side_nodes(s, SolidSide::top).front(), z_axis)];
 }
 
 }  // namespace flexpm

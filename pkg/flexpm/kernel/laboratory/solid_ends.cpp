@@ -18,7 +18,6 @@ namespace flexpm {
 
 namespace {
 
-constexpr int axial = 2;
 constexpr double small_strain = 1e-7;  ///< at which stretch and turns are linear, but no round-off
 
 std::vector<int> need_nodes(const SolidState& s, SolidSide side)
@@ -60,7 +59,7 @@ bool is_held(const SolidState& s, SolidSide side)
     if (find_plate(s, side) >= 0) return true;
     if (!s.bodies.empty()) return false;
     const std::vector<int> nodes = side_nodes(s, side);
-    return !nodes.empty() && s.grains.prescribed[s.grains.component(nodes.front(), axial)];
+    return !nodes.empty() && s.grains.prescribed[s.grains.component(nodes.front(), z_axis)];
 }
 
 bool is_held(const SolidState& s)
@@ -116,7 +115,7 @@ void hold_end(SolidState& s, SolidSide side, const EndHold& how)
 {
     if (is_held(s, side)) return;
     if (s.bodies.empty() && !how.plates) {
-        prescribe(s, need_nodes(s, side), axial, 0.0);
+        prescribe(s, need_nodes(s, side), z_axis, 0.0);
     } else {
         add_end_plate(s, side, how.pulled);
     }

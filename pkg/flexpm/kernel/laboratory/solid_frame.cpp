@@ -19,22 +19,20 @@ namespace flexpm {
 
 namespace {
 
-constexpr int axial = 2;
-
 int triangles(const SolidState& s) { return static_cast<int>(s.surface.side.size()); }
 
 double mean_on(const SolidState& s, const Array<double>& values, SolidSide side)
 {
     const std::vector<int> nodes = side_nodes(s, side);
     return mean_of(static_cast<int>(nodes.size()),
-        [&](int i) { return values[s.grains.component(nodes[i], axial)]; });
+        [&](int i) { return values[s.grains.component(nodes[i], z_axis)]; });
 }
 
 /// Force along z on the specimen at an end.
 double end_force(const SolidState& s, SolidSide side)
 {
     const int plate = find_plate(s, side);
-    return plate >= 0 ? s.plates[plate].force.z : holding_force(s, side_nodes(s, side), axial);
+    return plate >= 0 ? s.plates[plate].force.z : holding_force(s, side_nodes(s, side), z_axis);
 }
 
 double mean_diameter(const SolidState& s)
@@ -51,7 +49,7 @@ double centre_strain(const SolidState& s)
     Station stations[2];
     const double at[] = { 0.25 * height, 0.75 * height };
     for (int g = 0; g < s.grains.count; ++g) {
-        const int i = s.grains.component(s.grains.centre(g), axial);
+        const int i = s.grains.component(s.grains.centre(g), z_axis);
         const double place = s.grains.reference[i];
         for (int k = 0; k < 2; ++k)
             if (in_band(place - bottom, at[k], diameter))

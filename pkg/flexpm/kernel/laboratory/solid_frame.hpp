@@ -10,6 +10,9 @@ namespace flexpm {
 
 using SolidFrame = StateFrame<SolidState>;
 
+/// Component of the axis of a specimen between its ends: z.
+constexpr int z_axis = 2;
+
 /// Section and height of the unloaded specimen.
 struct SolidExtent {
     double area = 0.0;    ///< of the bottom [m^2]

@@ -23,7 +23,7 @@ namespace {
 
 /// Strain at which all is linear, but no round-off, and such a part of the way to the first
 /// softening, where the length of a test is none of the specimen's [-].
-constexpr double small_strain = 1e-7, small_part = 0.1;
+constexpr double linear_strain = 1e-7, small_part = 0.1;
 
 /// Growth of the forces of plates along a direction as grains move [N/s].
 double push_rate(const SolidState& s, const std::vector<int>& plates, Vector direction,
@@ -60,7 +60,7 @@ SolidPartState moved_state(SolidState s, const PartGeometry& parts, double dt)
     const SolidField field = elastic_field(s, drive_of(parts));
     SolidPartState found { std::move(s) };
     found.softening = elastic_strain(found.state, field, 1.0);  // a way: the field is that of 1 m
-    found.way = std::min(small_strain * parts.length, small_part * found.softening);
+    found.way = std::min(linear_strain * parts.length, small_part * found.softening);
     start(found.state, drive_of(parts), field, found.way, 1.0, true, dt);
     update_node_sets(found.state, 0.0, 0.0);
     found.load = part_load(found.state, parts);
@@ -144,7 +144,7 @@ SolidPartState pressed_part_state(
         farthest = std::max(farthest, norm(way));
     check_positive("way of the grains under pressures", farthest, "m");
     found.softening = elastic_strain(s, field, 1.0);
-    found.way = std::min(small_strain * mean_radius(s) / farthest, small_part * found.softening);
+    found.way = std::min(linear_strain * mean_radius(s) / farthest, small_part * found.softening);
     for (std::size_t i = 0; i < found.state.plates.size(); ++i) {
         Plate& plate = found.state.plates[i];
         const PlateMotion motion = field.of_plate(i);

@@ -13,12 +13,12 @@ namespace flexpm {
 
 namespace {
 
-constexpr int axial = 1;
+constexpr int y_axis = 1;
 
 /// Force on the specimen at its top or bottom: of the plates there, else of what holds the nodes.
 double end_force(const Assembly& a, int side)
 {
-    return has_plates(a, side) ? plate_force(a, side).y : reaction(a, side_nodes(a, side), axial);
+    return has_plates(a, side) ? plate_force(a, side).y : reaction(a, side_nodes(a, side), y_axis);
 }
 
 /// Mean lateral pressure on the right and left sides.

@@ -12,7 +12,7 @@ namespace {
 /// Distance over the mean diameter below which two centres are in one place.
 constexpr double one_place = 1e-6;
 /// Spheres that a message names by their numbers.
-constexpr std::size_t named = 20;
+constexpr std::size_t most_named = 20;
 
 void require_sound(const Sphere& sphere, const Solid& solid, const std::string& name)
 {
@@ -78,10 +78,10 @@ void refuse_hidden(const std::vector<Sphere>& spheres, const std::vector<int>& h
 {
     if (hidden.empty()) return;
     std::string numbers;
-    for (std::size_t k = 0; k < std::min(hidden.size(), named); ++k)
+    for (std::size_t k = 0; k < std::min(hidden.size(), most_named); ++k)
         numbers += (k > 0 ? ", " : "") + std::to_string(hidden[k]);
     refuse("polyhedra: hidden spheres",
-        std::to_string(hidden.size()) + " (" + numbers + (hidden.size() > named ? ", ..." : "")
+        std::to_string(hidden.size()) + " (" + numbers + (hidden.size() > most_named ? ", ..." : "")
             + ")",
         "must have a cell, the first at " + place(spheres[hidden.front()].centre)
             + "; remove, move or drop them");

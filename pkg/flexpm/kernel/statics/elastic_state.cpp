@@ -23,7 +23,7 @@ namespace {
 
 /// Part of its stiffness that an open point keeps while others are looked at: it keeps what nothing
 /// touches yet in its place. The last solution is without.
-constexpr double loose = 1e-6;
+constexpr double open_share = 1e-6;
 
 /// Solutions that all points take over at once, which nearly always suffice.
 constexpr int most_plain_solutions = 20;
@@ -99,7 +99,7 @@ public:
         const Array<double> none(a.grains.displacement.size(), 0.0);
         now.closed = points.closed(none, still, a.grains.radius.front());
         now.sticks = points.sticking(now.closed, none, still);
-        now.kept = loose;
+        now.kept = open_share;
         for (int solutions = 1; solutions < most_solutions; ++solutions) {
             if (goes_on(solutions <= most_plain_solutions)) continue;
             now.kept = 0.0;

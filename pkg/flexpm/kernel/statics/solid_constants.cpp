@@ -22,7 +22,7 @@ struct Facet {
 };
 
 /// A solid and its surface.
-struct Grains {
+struct SurfacedSolid {
     LinearSolid solid;
     std::vector<Facet> facets;
 };
@@ -54,13 +54,14 @@ int check_kinds(const Polyhedra& cells, const SolidElasticities& materials)
     return kinds;
 }
 
-Grains make_grains(const Polyhedra& cells, const SolidElasticities& materials, FacePointRule rule)
+SurfacedSolid make_grains(
+    const Polyhedra& cells, const SolidElasticities& materials, FacePointRule rule)
 {
     const int kinds = check_kinds(cells, materials);
     const auto kind_of = [&](int cell) {
         return materials.kind.empty() ? 0 : materials.kind[cell];
     };
-    Grains g;
+    SurfacedSolid g;
     LinearSolid& solid = g.solid;
     for (int k = 0; k < kinds; ++k) {
         const SolidElasticity& own = materials.pairs[k * kinds + k];
@@ -125,7 +126,7 @@ Grains make_grains(const Polyhedra& cells, const SolidElasticities& materials, F
 }
 
 /// Nodes that lie on a side.
-std::vector<std::uint8_t> nodes_on(const Grains& g, const Solid& solid, SolidSide side)
+std::vector<std::uint8_t> nodes_on(const SurfacedSolid& g, const Solid& solid, SolidSide side)
 {
     std::vector<std::uint8_t> on(g.solid.places.size(), 0);
     bool any = false;
@@ -143,7 +144,7 @@ std::vector<std::uint8_t> nodes_on(const Grains& g, const Solid& solid, SolidSid
 }
 
 /// @throws std::invalid_argument  for cells of another solid
-void require_cells_of(const Solid& solid, const Polyhedra& cells, const Grains& g)
+void require_cells_of(const Solid& solid, const Polyhedra& cells, const SurfacedSolid& g)
 {
     constexpr double alike = 1e-6;
     const int walls = static_cast<int>(solid.walls.size());
@@ -167,7 +168,7 @@ void require_cells_of(const Solid& solid, const Polyhedra& cells, const Grains& 
 SolidExtension solid_extension(const Polyhedra& cells, const Solid& solid,
     const SolidElasticities& materials, FacePointRule rule)
 {
-    const Grains g = make_grains(cells, materials, rule);
+    const SurfacedSolid g = make_grains(cells, materials, rule);
     require_cells_of(solid, cells, g);
     const auto bottom = nodes_on(g, solid, SolidSide::bottom);
     const auto top = nodes_on(g, solid, SolidSide::top);

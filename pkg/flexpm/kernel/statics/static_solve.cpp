@@ -208,7 +208,7 @@ SparseMatrix reduce(const std::vector<StiffnessEntry>& entries, const Unknowns& 
 }
 
 /// Forces on the unknowns: loads, and what the prescribed values pull.
-Eigen::VectorXd right_side(const std::vector<StiffnessEntry>& entries, const Unknowns& n,
+Eigen::VectorXd right_hand_side(const std::vector<StiffnessEntry>& entries, const Unknowns& n,
     const Array<double>& given, const Array<double>& of_plates, const Array<double>* loads)
 {
     Eigen::VectorXd rhs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n.index.size()));
@@ -308,7 +308,7 @@ std::vector<StaticSolution> solve_static_cases(
         s.displacement.assign(size, 0.0);
         s.force.assign(size, 0.0);
         add_plate_loads(a, one, springs, s.force);
-        const Eigen::VectorXd rhs = right_side(entries, n, given, s.force, one.loads);
+        const Eigen::VectorXd rhs = right_hand_side(entries, n, given, s.force, one.loads);
         const bool any = !n.index.empty();
         if (any && found.size() == 1) {
             // minimum degree, the default order, fills in least of those that Eigen has

@@ -17,7 +17,7 @@ namespace flexpm {
 namespace {
 
 /// Share of the size of a cell below which a distance is round-off.
-constexpr double round_off = 1e-9;
+constexpr double least_length = 1e-9;
 /// Share of the size of a cell below which a vertex may not come to the next one.
 constexpr double least_edge = 0.001;
 
@@ -379,7 +379,7 @@ double length_outside(const CellIndex& index, const JointLine& line)
 void straighten(CellIndex& index, const JointLine& joint, const std::vector<int>& vertices,
     const std::set<VertexPair>& laid, double mean_area)
 {
-    const double least = round_off * std::sqrt(mean_area);
+    const double least = least_length * std::sqrt(mean_area);
     const LongLine line(joint, beyond(index));
     Straightener straightener(index, mean_area, laid);
     for (int v : vertices) {

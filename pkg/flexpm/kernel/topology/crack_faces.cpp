@@ -34,7 +34,7 @@ double elastic_energy(const Contacts& contacts, int contact)
     return sum;
 }
 
-Point unit(Point p) { return (1.0 / norm(p)) * p; }
+Point unit_along(Point p) { return (1.0 / norm(p)) * p; }
 
 Point turned(Point p, double angle)
 {
@@ -135,10 +135,10 @@ void set_branch(Assembly& a, int contact, Point normal, bool between_faces)
 Point wanted_normal(const Assembly& a, int contact, const BondFaces& faces, double parted)
 {
     const Point between = between_centres(a.grains, a.contacts.pairs[contact]);
-    const Point of_centres = unit(between);
+    const Point of_centres = unit_along(between);
     if (parted == 0.0) return faces.normal;
     if (parted == 1.0) return of_centres;
-    return unit((1.0 - parted) * faces.normal + parted * of_centres);
+    return unit_along((1.0 - parted) * faces.normal + parted * of_centres);
 }
 
 /// Let a crack that acts follow what its faces do. Returns whether it has another normal by that.

@@ -64,6 +64,15 @@ template <class T> boost::python::object copied(const std::vector<T>& values, in
 	return copy;
 }
 
+/// View of a member vector as rows of scalars; the owner is the Python object that holds the C++ one.
+template <class T, class Class, class Item, std::vector<Item> Class::*member> boost::python::object rows(boost::python::object self)
+{
+	const auto&   items   = boost::python::extract<const Class&>(self)().*member;
+	constexpr int columns = sizeof(Item) == sizeof(T) ? 0 : static_cast<int>(sizeof(Item) / sizeof(T));
+	return dense_view(reinterpret_cast<const T*>(items.data()), items.size(), columns, self, Access::readOnly);
+}
+template <class Class, class Item, std::vector<Item> Class::*member> constexpr auto integers = rows<int, Class, Item, member>;
+
 /// Read access to a C-contiguous buffer of doubles or 32-bit integers (a numpy array) for the time of a call.
 template <class T> class InputArray {
 public:

@@ -43,25 +43,8 @@ namespace {
 		}
 	};
 
-	/// View of a member vector as rows of scalars; the owner is the Python object that holds the C++ one.
-	template <class T, class Class, class Item, std::vector<Item> Class::*member> py::object rows(py::object self)
-	{
-		const auto&   items   = py::extract<const Class&>(self)().*member;
-		constexpr int columns = sizeof(Item) == sizeof(T) ? 0 : static_cast<int>(sizeof(Item) / sizeof(T));
-		return dense_view(reinterpret_cast<const T*>(items.data()), items.size(), columns, self, Access::readOnly);
-	}
 	using flexpm::Tessellation;
-	template <class Item, std::vector<Item> Tessellation::*member> constexpr auto         integers = rows<int, Tessellation, Item, member>;
 	template <class T, class Item, std::vector<Item> GrainMeshes::*member> constexpr auto meshRows = rows<T, GrainMeshes, Item, member>;
-
-	std::vector<flexpm::Point> points(const py::object& array, const char* name)
-	{
-		const InputArray<double> input(array, 2, name);
-		if (input.size(1) != 2)
-			throw std::invalid_argument(std::string(name) + " = rows of " + std::to_string(input.size(1)) + ", must be rows of 2; give x and y");
-		const auto* first = reinterpret_cast<const flexpm::Point*>(input.data());
-		return { first, first + input.size(0) };
-	}
 
 	std::vector<double> numbers(const py::object& array, const char* name)
 	{
@@ -70,6 +53,15 @@ namespace {
 	}
 
 } // namespace
+
+std::vector<flexpm::Point> points(const py::object& array, const char* name)
+{
+	const InputArray<double> input(array, 2, name);
+	if (input.size(1) != 2)
+		throw std::invalid_argument(std::string(name) + " = rows of " + std::to_string(input.size(1)) + ", must be rows of 2; give x and y");
+	const auto* first = reinterpret_cast<const flexpm::Point*>(input.data());
+	return { first, first + input.size(0) };
+}
 
 std::vector<flexpm::Disc> discs(const py::object& centres, const py::object& radii)
 {
@@ -139,17 +131,18 @@ namespace {
 		py::class_<T, std::shared_ptr<T>>("Tessellation", "Laguerre cells over common vertices. Arrays are read-only views.", py::no_init)
 		        .add_property("cells", &T::cells, "Number of cells.")
 		        .add_property("vertices", rows<double, T, flexpm::Point, &T::vertices>, "Vertices, (n, 2) [m].")
-		        .add_property("cell_offsets", integers<int, &T::cell_offsets>, "Cell i owns cell_vertices[cell_offsets[i]:cell_offsets[i + 1]].")
-		        .add_property("cell_vertices", integers<int, &T::cell_vertices>, "Vertex indices, counter-clockwise, cell after cell.")
-		        .add_property("disc_of_cell", integers<int, &T::disc_of_cell>, "Disc of each cell.")
+		        .add_property("cell_offsets", integers<T, int, &T::cell_offsets>, "Cell i owns cell_vertices[cell_offsets[i]:cell_offsets[i + 1]].")
+		        .add_property("cell_vertices", integers<T, int, &T::cell_vertices>, "Vertex indices, counter-clockwise, cell after cell.")
+		        .add_property("disc_of_cell", integers<T, int, &T::disc_of_cell>, "Disc of each cell.")
 		        .add_property(
 		                "laguerre",
 		                laguerreOf,
 		                "Per cell: 1 for the whole Laguerre cell of its disc, 0 for one that was given, sawn, cut or split (a copy).")
-		        .add_property("shared_edges", integers<flexpm::SharedEdge, &T::shared_edges>, "Rows cell_a < cell_b, start, end; cell_a on the left.")
-		        .add_property("boundary_edges", integers<flexpm::BoundaryEdge, &T::boundary_edges>, "Rows cell, start, end, side of the outline.")
-		        .add_property("merged_vertices", integers<int, &T::merged_vertices>, "Vertices into which short edges were collapsed.")
-		        .add_property("hidden_discs", integers<int, &T::hidden_discs>, "Discs without a cell.")
+		        .add_property(
+		                "shared_edges", integers<T, flexpm::SharedEdge, &T::shared_edges>, "Rows cell_a < cell_b, start, end; cell_a on the left.")
+		        .add_property("boundary_edges", integers<T, flexpm::BoundaryEdge, &T::boundary_edges>, "Rows cell, start, end, side of the outline.")
+		        .add_property("merged_vertices", integers<T, int, &T::merged_vertices>, "Vertices into which short edges were collapsed.")
+		        .add_property("hidden_discs", integers<T, int, &T::hidden_discs>, "Discs without a cell.")
 		        .add_property("cell_areas", cellAreas, "Area of each cell [m^2] (a copy).")
 		        .def_readonly("uncollapsed_shared_edges", &T::uncollapsed_shared_edges, "Shared edges before short edges were collapsed.");
 	}

@@ -25,15 +25,7 @@ namespace {
 	static_assert(sizeof(flexpm::Vector) == 3 * sizeof(double), "vectors are viewed as rows of three doubles");
 	static_assert(sizeof(flexpm::PolyhedronFace) == 3 * sizeof(int), "faces are viewed as rows of three integers");
 
-	/// View of a member vector as rows of scalars; the owner is the Python object that holds the C++ one.
-	template <class T, class Class, class Item, std::vector<Item> Class::*member> py::object rows(py::object self)
-	{
-		const auto&   items   = py::extract<const Class&>(self)().*member;
-		constexpr int columns = sizeof(Item) == sizeof(T) ? 0 : static_cast<int>(sizeof(Item) / sizeof(T));
-		return dense_view(reinterpret_cast<const T*>(items.data()), items.size(), columns, self, Access::readOnly);
-	}
-	template <class Item, std::vector<Item> Polyhedra::*member> constexpr auto integers = rows<int, Polyhedra, Item, member>;
-	template <std::vector<flexpm::Vector> Polyhedra::*member> constexpr auto   vectors  = rows<double, Polyhedra, flexpm::Vector, member>;
+	template <std::vector<flexpm::Vector> Polyhedra::*member> constexpr auto vectors = rows<double, Polyhedra, flexpm::Vector, member>;
 
 	std::vector<flexpm::Sphere> spheres(const py::object& array)
 	{
@@ -151,14 +143,14 @@ namespace {
 		        .add_property("volumes", rows<double, P, double, &P::volumes>, "Volume of each cell [m^3].")
 		        .add_property(
 		                "faces",
-		                integers<flexpm::PolyhedronFace, &P::faces>,
+		                integers<P, flexpm::PolyhedronFace, &P::faces>,
 		                "Rows cell_a < cell_b, -1; on a wall cell, -1, wall. Contacts come first.")
-		        .add_property("face_offsets", integers<int, &P::face_offsets>, "Face i owns face_vertices[face_offsets[i]:face_offsets[i + 1]].")
+		        .add_property("face_offsets", integers<P, int, &P::face_offsets>, "Face i owns face_vertices[face_offsets[i]:face_offsets[i + 1]].")
 		        .add_property(
-		                "face_vertices", integers<int, &P::face_vertices>, "Vertex indices, counter-clockwise from outside cell_a, face after face.")
-		        .add_property("sphere_of_cell", integers<int, &P::sphere_of_cell>, "Sphere of each cell.")
-		        .add_property("hidden_spheres", integers<int, &P::hidden_spheres>, "Spheres without a cell.")
-		        .add_property("moved_centres", integers<int, &P::moved_centres>, "Cells whose centre is their centroid.")
+		                "face_vertices", integers<P, int, &P::face_vertices>, "Vertex indices, counter-clockwise from outside cell_a, face after face.")
+		        .add_property("sphere_of_cell", integers<P, int, &P::sphere_of_cell>, "Sphere of each cell.")
+		        .add_property("hidden_spheres", integers<P, int, &P::hidden_spheres>, "Spheres without a cell.")
+		        .add_property("moved_centres", integers<P, int, &P::moved_centres>, "Cells whose centre is their centroid.")
 		        .def_readonly("contacts", &P::contacts, "Number of faces between cells.")
 		        .def_readonly("uncollapsed_contacts", &P::uncollapsed_contacts, "Contacts before short edges were collapsed.")
 		        .def_readonly("short_edges", &P::short_edges, "Edges below the limit that had to stay.");

@@ -15,12 +15,12 @@ namespace {
 	using flexpm::InnerCells;
 
 	/// Part of the whole, which it keeps alive. Boost.Python would turn a pointer that shares the whole's own count into the whole.
-	std::shared_ptr<flexpm::Tessellation> tessellationOf(const std::shared_ptr<InnerCells>& inner)
+	std::shared_ptr<flexpm::Tessellation> innerTessellation(const std::shared_ptr<InnerCells>& inner)
 	{
 		return { &inner->cells, [inner](flexpm::Tessellation*) {} };
 	}
 
-	py::object discs(const InnerCells& inner)
+	py::object innerDiscs(const InnerCells& inner)
 	{
 		std::vector<double> rows;
 		for (const flexpm::Disc& d : inner.discs)
@@ -42,8 +42,8 @@ namespace {
 void register_subdivision_bindings()
 {
 	py::class_<InnerCells, std::shared_ptr<InnerCells>>("InnerCells", "Cells of the inner particles of all grains.", py::no_init)
-	        .add_property("tessellation", tessellationOf, "The cells as one tessellation; a stretch that two share is a shared edge.")
-	        .add_property("discs", discs, "Rows x, y, radius [m] of the particles, one per cell.")
+	        .add_property("tessellation", innerTessellation, "The cells as one tessellation; a stretch that two share is a shared edge.")
+	        .add_property("discs", innerDiscs, "Rows x, y, radius [m] of the particles, one per cell.")
 	        .add_property("grain", grain, "Grain of each cell.")
 	        .add_property("outer", outer, "Per shared edge: 1 between two grains, 0 within one.");
 	py::def("inner_cells",

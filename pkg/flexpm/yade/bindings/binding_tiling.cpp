@@ -21,15 +21,6 @@ namespace {
 	using flexpm::Tiling;
 	using Rings = std::vector<std::vector<Point>>;
 
-	std::vector<Point> points(const py::object& array, const char* name)
-	{
-		const InputArray<double> input(array, 2, name);
-		if (input.size(1) != 2)
-			throw std::invalid_argument(std::string(name) + " = rows of " + std::to_string(input.size(1)) + ", must be rows of 2; give x and y");
-		const auto* first = reinterpret_cast<const Point*>(input.data());
-		return { first, first + input.size(0) };
-	}
-
 	Rings rings(const py::list& arrays, const char* name)
 	{
 		Rings all;

@@ -166,8 +166,6 @@ namespace {
 		glRotated(turn.angle() * Mathr::RAD_TO_DEG, turn.axis()[0], turn.axis()[1], turn.axis()[2]);
 	}
 
-	void setColour(const Vector3r& colour) { glColor3d(colour[0], colour[1], colour[2]); }
-
 	/// Polygons and lines of a polyhedron about its body's position.
 	struct SolidPen {
 		Vector3r origin;
@@ -185,10 +183,10 @@ namespace {
 		void fill(const flexpm::GrainFaces& faces, const Vector3r& colour) const
 		{
 			for (const auto& face : faces.outside) {
-				setColour(Gl1_LaguerreCell::light(face, shown.window.front) * colour);
+				Gl1_LaguerreCell::setColour(Gl1_LaguerreCell::light(face, shown.window.front) * colour);
 				polygon(face, GL_POLYGON);
 			}
-			setColour(colour);
+			Gl1_LaguerreCell::setColour(colour);
 			for (const auto& face : faces.section)
 				polygon(face, GL_POLYGON);
 		}
@@ -212,7 +210,7 @@ namespace {
 
 	void drawPlane(const Pen& pen, const Vector3r& colour, bool wire)
 	{
-		setColour(colour);
+		Gl1_LaguerreCell::setColour(colour);
 		if (!wire) pen.grains.is_rigid(pen.grain) ? pen.fan() : pen.triangles(GL_TRIANGLES);
 		glDisable(GL_POLYGON_OFFSET_FILL);
 		glColor3d(.15, .15, .15);
@@ -238,6 +236,8 @@ Real Gl1_LaguerreCell::light(const flexpm::Polygon& corners, const Vector3r& toV
 }
 
 Vector3r Gl1_LaguerreCell::toViewer() { return Window::present().front; }
+
+void Gl1_LaguerreCell::setColour(const Vector3r& colour) { glColor3d(colour[0], colour[1], colour[2]); }
 
 void Gl1_LaguerreCell::go(const shared_ptr<Shape>& shape, const shared_ptr<State>& state, bool wire, const GLViewInfo&)
 {

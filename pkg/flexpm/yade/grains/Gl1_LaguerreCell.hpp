@@ -35,6 +35,7 @@ public:
 	static Real light(const flexpm::Polygon& corners, const Vector3r& toViewer);
 	/// Direction to the viewer in the scene, from what OpenGL draws with.
 	static Vector3r toViewer();
+	static void     setColour(const Vector3r& colour);
 };
 REGISTER_SAVED(Gl1_LaguerreCell);
 

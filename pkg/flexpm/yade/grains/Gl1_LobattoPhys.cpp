@@ -26,7 +26,7 @@ Real Gl1_LobattoPhys::forceWidth = 8.;
 namespace {
 
 	/// The largest force of the picture that is being drawn: YADE draws one bond after the other.
-	struct Shown {
+	struct BondPicture {
 		const flexpm::Grains* of      = nullptr;
 		int                   first   = -1; ///< contact with which the picture has begun
 		long                  step    = -1;
@@ -51,7 +51,7 @@ namespace {
 			look(state);
 		}
 	};
-	Shown shown;
+	BondPicture picture;
 
 	void draw(const Vector3r& from, const Vector3r& to, Real width)
 	{
@@ -69,20 +69,18 @@ namespace {
 	template <class State> void drawForce(const State& state, int place)
 	{
 		const Real force = flexpm::normal_force(state, place);
-		if (force == 0. || shown.largest == 0.) return;
+		if (force == 0. || picture.largest == 0.) return;
 		if (force < 0.)
 			glColor3d(0., 0., 0.);
 		else
 			glColor3d(.85, .1, .1);
 		draw(flexpm::branch_line(state.grains, state.contacts.pairs[place], Gl1_LaguerreCell::scale),
-		     Gl1_LobattoPhys::forceWidth * std::abs(force) / shown.largest);
+		     Gl1_LobattoPhys::forceWidth * std::abs(force) / picture.largest);
 	}
-
-	void setColour(const Vector3r& colour) { glColor3d(colour[0], colour[1], colour[2]); }
 
 	void drawPart(const flexpm::Assembly& a, int place, int point, const Vector3r& colour)
 	{
-		setColour(colour);
+		Gl1_LaguerreCell::setColour(colour);
 		draw(flexpm::point_line(a, place, point, Gl1_LaguerreCell::scale), Gl1_LobattoPhys::crackWidth);
 	}
 
@@ -94,15 +92,15 @@ namespace {
 		for (const auto& part : flexpm::point_part(s, place, point, scale)) {
 			const auto left = flexpm::in_front(part, plane);
 			if (left.empty()) continue;
-			setColour(Gl1_LaguerreCell::light(part, shown.toViewer) * colour);
+			Gl1_LaguerreCell::setColour(Gl1_LaguerreCell::light(part, picture.toViewer) * colour);
 			glBegin(GL_POLYGON);
 			for (const auto& p : left)
 				glVertex3d(p.x, p.y, p.z);
 			glEnd();
-			setColour(colour);
+			Gl1_LaguerreCell::setColour(colour);
 			draw(flexpm::cut_line(part, plane), width);
 		}
-		for (const auto& line : flexpm::point_rim(s, place, point, scale, shown.onSurface))
+		for (const auto& line : flexpm::point_rim(s, place, point, scale, picture.onSurface))
 			draw(flexpm::in_front(line, plane), width);
 	}
 
@@ -131,7 +129,7 @@ void Gl1_LobattoPhys::go(const shared_ptr<IPhys>& phys, const shared_ptr<Interac
 	glPushAttrib(GL_ENABLE_BIT);
 	glDisable(GL_CULL_FACE); // faces of cracks are seen from both sides
 	owned.with([&](const auto& state) {
-		shown.update(state, contact);
+		picture.update(state, contact);
 		if (forces) drawForce(state, place);
 		if (cracks) drawCracks(state, place);
 	});
