@@ -16,8 +16,8 @@ namespace flexpm {
 
 namespace {
 
-/// Area over that of a triangle that is none, and gap over a radius that is none: round-off [-].
-constexpr double no_area = 1e-9, no_gap = 1e-9;
+/// Area over that of a triangle that is none: round-off [-].
+constexpr double no_area = 1e-9;
 
 /// Largest angle of a jaw: a facet further round does not face it [rad].
 constexpr double widest = 2.0944;

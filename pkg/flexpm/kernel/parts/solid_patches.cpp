@@ -19,8 +19,6 @@ namespace flexpm {
 
 namespace {
 
-/// Gap over the size of the box that is none: round-off [-].
-constexpr double no_gap = 1e-9;
 /// Largest slope of a face to a seated plate, whose turns are small.
 constexpr double steepest = 0.5;
 /// Looks at all contacts until a plate lies, for each of them: more are none that helps.

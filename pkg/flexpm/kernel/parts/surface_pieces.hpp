@@ -10,7 +10,10 @@
 
 namespace flexpm {
 
-/// Places whose part along a normal is at most so much.
+/// Gap over the size of a part that is none: round-off [-].
+constexpr double no_gap = 1e-9;
+
+/// Half space n x <= most.
 struct HalfSpace {
     Vector normal;
     double most = 0.0;  ///< [m]
