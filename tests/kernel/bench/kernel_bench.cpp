@@ -4,8 +4,8 @@
 /// turns (--benchmark_repetitions, --benchmark_enable_random_interleaving=true).
 #include "loaded.hpp"
 
-#include <flexpm/kernel/plane_lanes/contact_forces.hpp>
 #include <flexpm/kernel/plane_lanes/centre_motion.hpp>
+#include <flexpm/kernel/plane_lanes/contact_forces.hpp>
 
 #include <benchmark/benchmark.h>
 

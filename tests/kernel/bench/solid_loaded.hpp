@@ -4,11 +4,11 @@
 #pragma once
 
 #include <flexpm/kernel/core/random.hpp>
-#include <flexpm/kernel/topology/solid_build.hpp>
-#include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
-#include <flexpm/kernel/step/solid_step.hpp>
 #include <flexpm/kernel/statics/solid_loading.hpp>
+#include <flexpm/kernel/step/solid_masses.hpp>
+#include <flexpm/kernel/step/solid_step.hpp>
+#include <flexpm/kernel/topology/solid_build.hpp>
 
 #include "support/specimens.hpp"
 

@@ -3,10 +3,10 @@
 /// velocity.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/laboratory/solid_ends.hpp>
-#include <flexpm/kernel/laboratory/steady_motion.hpp>
-#include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
+#include <flexpm/kernel/laboratory/solid_ends.hpp>
+#include <flexpm/kernel/laboratory/solid_frame.hpp>
+#include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/statics/solid_constants.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  A plate in a soft machine: series of springs, energy, linear solution. Layers before
 /// plates. SI units.
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/statics/static_solve.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>

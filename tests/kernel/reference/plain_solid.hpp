@@ -4,9 +4,9 @@
 /// positive.
 #pragma once
 
+#include <flexpm/kernel/core/quaternion.hpp>
 #include <flexpm/kernel/fem/tetrahedron.hpp>
 #include <flexpm/kernel/law/face_point.hpp>
-#include <flexpm/kernel/core/quaternion.hpp>
 #include <flexpm/kernel/space/face_points.hpp>
 #include <flexpm/kernel/space/polyhedra.hpp>
 

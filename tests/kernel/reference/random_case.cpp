@@ -2,9 +2,9 @@
 #include "reference/random_case.hpp"
 
 #include <flexpm/kernel/forces/gravity.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/geometry/subdivision.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>

@@ -4,9 +4,9 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
-#include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/statics/linear_solid.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
+#include <flexpm/kernel/step/solid_masses.hpp>
 
 #include "support/solid_states.hpp"
 

@@ -2,8 +2,8 @@
 /// @file  A specimen that is mirrored in x = y, cell by cell, has the mirrored linear solution.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/forces/solid_pressure.hpp>
+#include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/space/face_triangles.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 #include <flexpm/kernel/statics/solid_loading.hpp>

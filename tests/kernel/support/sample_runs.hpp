@@ -3,8 +3,8 @@
 #pragma once
 
 #include <flexpm/kernel/forces/gravity.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/axial_measures.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>
 

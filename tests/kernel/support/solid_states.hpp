@@ -2,13 +2,13 @@
 /// @file  Specimens in space for the tests of their step, and the same as plain ones.
 #pragma once
 
+#include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
-#include <flexpm/kernel/topology/solid_build.hpp>
-#include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/statics/solid_loading.hpp>
 #include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/step/solid_step.hpp>
-#include <flexpm/kernel/statics/solid_loading.hpp>
+#include <flexpm/kernel/topology/solid_build.hpp>
 
 #include "reference/solid_samples.hpp"
 

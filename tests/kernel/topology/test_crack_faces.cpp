@@ -2,9 +2,9 @@
 /// @file  Bonds that have cracked meet again at their faces. SI units, tension positive.
 #include "support/catch.hpp"
 
-#include <flexpm/kernel/plane_lanes/bond_faces.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/overlaps.hpp>
+#include <flexpm/kernel/plane_lanes/bond_faces.hpp>
 
 #include "reference/plain_step.hpp"
 #include "reference/read_state.hpp"

@@ -4,10 +4,10 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/state_check.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/grain_parting.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
 #include <flexpm/kernel/topology/loose_grains.hpp>

@@ -105,8 +105,7 @@ TEST_CASE("Displacement is that of the centre, minerals are those of the options
     CHECK(size_now.high.x == Approx(2.0 * size + 3e-6));
     CHECK(size_now.low.y == Approx(-4e-6));
     const int node = a.grains.node(1, 0);
-    CHECK(a.grains.point_at(node, 100.0).x
-        == Approx(vector_at(a.grains.reference, node).x + 3e-4));
+    CHECK(a.grains.point_at(node, 100.0).x == Approx(vector_at(a.grains.reference, node).x + 3e-4));
 }
 
 TEST_CASE("Damage is the mean over the points of a grain's bonds", "[view]")

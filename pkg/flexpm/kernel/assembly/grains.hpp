@@ -134,10 +134,7 @@ struct Grains {
     {
         return vector(reference, node) + factor * vector(displacement, node);
     }
-    Point point_at(int node, double factor = 1.0) const
-    {
-        return in_plane(position(node, factor));
-    }
+    Point point_at(int node, double factor = 1.0) const { return in_plane(position(node, factor)); }
 
     /// Length of a vector [m]: by hypot() in 2D, which may differ from norm() in the last digit.
     double length(Vector v) const { return layout.dimension == 2 ? norm(in_plane(v)) : norm(v); }

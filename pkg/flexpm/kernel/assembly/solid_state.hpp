@@ -9,10 +9,10 @@
 
 #include <flexpm/kernel/assembly/bonded_state.hpp>
 #include <flexpm/kernel/assembly/contacts.hpp>
+#include <flexpm/kernel/core/quaternion.hpp>
 #include <flexpm/kernel/core/space_vector.hpp>
 #include <flexpm/kernel/law/face_point.hpp>
 #include <flexpm/kernel/law/solid_elastic.hpp>
-#include <flexpm/kernel/core/quaternion.hpp>
 
 #include <array>
 #include <cstdint>

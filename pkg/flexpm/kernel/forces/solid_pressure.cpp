@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/forces/solid_pressure.hpp>
 
-#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/assembly/solid_plan.hpp>
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 
 #include <algorithm>
@@ -76,7 +76,8 @@ void add_pressure_forces(SolidState& s, int block)
         const int t = plan.pressed[i];
         const auto& n = surface.nodes[t];
         const Vector first = s.grains.position(n[0]);
-        const Vector area = 0.5 * cross(s.grains.position(n[1]) - first, s.grains.position(n[2]) - first);
+        const Vector area =
+            0.5 * cross(s.grains.position(n[1]) - first, s.grains.position(n[2]) - first);
         // what has come loose lies no more in the skin that the pressure acts on, deviation D57
         const double pressure = s.grains.loose[surface.grain[t]] ? 0.0 : surface.pressure[t];
         const Vector now = (-pressure) * area, way = way_of(s, t);

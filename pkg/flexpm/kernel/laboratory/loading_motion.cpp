@@ -3,10 +3,10 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/parts/node_sets.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/statics/unilateral_solve.hpp>
 

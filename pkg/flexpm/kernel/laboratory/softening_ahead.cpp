@@ -263,8 +263,8 @@ double factor_along(const State& s, const Velocity& velocity, double dt, const S
         const double whole = 1.0 - damage;
         const Strengths left = { whole * law.tensile_strength, whole * law.cohesion, law.friction };
         const double telling = cracked ? 1.0 : damage_share(law);
-        bounds.push_back(softening_bound(approach(left, now, growth), s.contacts.area(c, p),
-            telling, crossing, rule.growth));
+        bounds.push_back(softening_bound(
+            approach(left, now, growth), s.contacts.area(c, p), telling, crossing, rule.growth));
     });
     return factor_of(std::move(bounds), cut_area(s));
 }

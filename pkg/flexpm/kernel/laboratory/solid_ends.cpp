@@ -4,10 +4,10 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
-#include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 
 #include <algorithm>

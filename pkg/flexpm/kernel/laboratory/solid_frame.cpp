@@ -3,11 +3,11 @@
 
 #include <flexpm/kernel/core/mean.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/forces/solid_pressure.hpp>
 #include <flexpm/kernel/measure/centre_strain.hpp>
+#include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/parts/surface_pieces.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
-#include <flexpm/kernel/parts/solid_plates.hpp>
-#include <flexpm/kernel/forces/solid_pressure.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/statics/solid_loading.hpp>
 

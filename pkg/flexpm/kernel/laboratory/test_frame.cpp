@@ -2,10 +2,10 @@
 #include <flexpm/kernel/laboratory/test_frame.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/measure/specimen_strain.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 /// @file  What of a surface triangle lies before a plate of a test. SI units.
 #pragma once
 
-#include <flexpm/kernel/core/space_vector.hpp>
 #include <flexpm/kernel/assembly/solid_state.hpp>
+#include <flexpm/kernel/core/space_vector.hpp>
 
 #include <array>
 #include <vector>

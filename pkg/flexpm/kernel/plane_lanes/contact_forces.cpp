@@ -5,9 +5,9 @@
 #include <flexpm/kernel/assembly/law_rows.hpp>
 #include <flexpm/kernel/core/compiler.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
+#include <flexpm/kernel/law/bilinear_step.hpp>
 #include <flexpm/kernel/plane_lanes/contact_kinematics.hpp>
 #include <flexpm/kernel/plane_lanes/crack_record.hpp>
-#include <flexpm/kernel/law/bilinear_step.hpp>
 
 namespace flexpm {
 

@@ -4,8 +4,8 @@
 /// instruction set. Vectors are three rows.
 #pragma once
 
-#include <flexpm/kernel/core/rows_of_four.hpp>
 #include <flexpm/kernel/assembly/solid_state.hpp>
+#include <flexpm/kernel/core/rows_of_four.hpp>
 
 #include <cmath>
 

@@ -3,9 +3,9 @@
 /// centre and the turn; nodes and contacts are those of deformable grains.
 #pragma once
 
-#include <flexpm/kernel/core/central_difference.hpp>
 #include <flexpm/kernel/assembly/solid_state.hpp>
 #include <flexpm/kernel/assembly/step_options.hpp>
+#include <flexpm/kernel/core/central_difference.hpp>
 
 namespace flexpm {
 

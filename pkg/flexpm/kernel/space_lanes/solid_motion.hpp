@@ -2,8 +2,8 @@
 /// @file  Motion of the nodes of deformable grains in space, `lanes` of their components at a time.
 #pragma once
 
-#include <flexpm/kernel/core/central_difference.hpp>
 #include <flexpm/kernel/assembly/solid_state.hpp>
+#include <flexpm/kernel/core/central_difference.hpp>
 
 namespace flexpm {
 

@@ -2,9 +2,9 @@
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 
 #include <flexpm/kernel/core/instruction_set.hpp>
+#include <flexpm/kernel/core/lane_sum.hpp>
 #include <flexpm/kernel/core/prefetch_rows.hpp>
 #include <flexpm/kernel/core/rows_of_four.hpp>
-#include <flexpm/kernel/core/lane_sum.hpp>
 
 namespace flexpm {
 

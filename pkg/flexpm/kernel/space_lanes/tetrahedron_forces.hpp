@@ -2,8 +2,8 @@
 /// @file  Forces and energy of the tetrahedra of a grain, `lanes` of them at a time.
 #pragma once
 
-#include <flexpm/kernel/fem/tetrahedron.hpp>
 #include <flexpm/kernel/assembly/solid_state.hpp>
+#include <flexpm/kernel/fem/tetrahedron.hpp>
 
 namespace flexpm {
 

@@ -4,9 +4,9 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/specimen_strain.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/statics/static_solve.hpp>
 #include <flexpm/kernel/statics/stiffness_matrix.hpp>
 #include <flexpm/kernel/topology/plate_build.hpp>

@@ -3,13 +3,13 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/forces/gravity.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
+#include <flexpm/kernel/plane_lanes/centre_motion.hpp>
 #include <flexpm/kernel/plane_lanes/contact_forces.hpp>
 #include <flexpm/kernel/plane_lanes/element_forces.hpp>
-#include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/plane_lanes/nodal_forces.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
-#include <flexpm/kernel/forces/sides.hpp>
-#include <flexpm/kernel/plane_lanes/centre_motion.hpp>
 #include <flexpm/kernel/statics/elastic_solution.hpp>
 #include <flexpm/kernel/statics/one_sided_points.hpp>
 

@@ -2,9 +2,9 @@
 #include <flexpm/kernel/statics/solid_loading.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/step/solid_step.hpp>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 #include <flexpm/kernel/statics/solid_spectrum.hpp>
 
 #include <flexpm/kernel/core/random.hpp>
-#include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/step/solid_masses.hpp>
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>

@@ -3,8 +3,8 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/fem/tetrahedron.hpp>
-#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 

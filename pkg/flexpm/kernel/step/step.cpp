@@ -3,15 +3,15 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/core/thread_team.hpp>
-#include <flexpm/kernel/plane_lanes/contact_forces.hpp>
-#include <flexpm/kernel/plane_lanes/element_forces.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/forces/held_sides.hpp>
-#include <flexpm/kernel/plane_lanes/nodal_forces.hpp>
+#include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/plate_contact.hpp>
-#include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/plane_lanes/centre_motion.hpp>
+#include <flexpm/kernel/plane_lanes/contact_forces.hpp>
+#include <flexpm/kernel/plane_lanes/element_forces.hpp>
+#include <flexpm/kernel/plane_lanes/nodal_forces.hpp>
 #include <flexpm/kernel/plane_lanes/node_motion.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>

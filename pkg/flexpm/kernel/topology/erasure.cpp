@@ -2,11 +2,11 @@
 #include <flexpm/kernel/topology/erasure.hpp>
 
 #include <flexpm/kernel/assembly/access.hpp>
-#include <flexpm/kernel/plane_lanes/crack_record.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/energy_sums.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
+#include <flexpm/kernel/plane_lanes/crack_record.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>

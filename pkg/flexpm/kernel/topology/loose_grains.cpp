@@ -36,8 +36,7 @@ template <class State> bool presses_any(const State& s)
 template <class State> bool is_held(const State& s, int grain)
 {
     bool held = s.is_spin_held(grain);
-    for_each_component(
-        s.grains, grain, [&](int i) { held = held || s.grains.prescribed[i] != 0; });
+    for_each_component(s.grains, grain, [&](int i) { held = held || s.grains.prescribed[i] != 0; });
     return held;
 }
 

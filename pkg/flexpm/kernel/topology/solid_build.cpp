@@ -2,13 +2,13 @@
 /// @file  Grains, tetrahedra, contacts and surface of a specimen in space.
 #include <flexpm/kernel/topology/solid_build.hpp>
 
+#include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/fem/tetrahedron.hpp>
-#include <flexpm/kernel/step/solid_masses.hpp>
-#include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/space/face_frame.hpp>
 #include <flexpm/kernel/space/face_triangles.hpp>
 #include <flexpm/kernel/space/fan_meshes.hpp>
+#include <flexpm/kernel/step/solid_masses.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/view/snapshot.hpp>
 #include <flexpm/yade/bindings/array_view.hpp>

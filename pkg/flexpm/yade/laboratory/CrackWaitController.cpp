@@ -5,9 +5,9 @@
 #include <flexpm/kernel/laboratory/crack_wait.hpp>
 #include <flexpm/kernel/laboratory/loading_motion.hpp>
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
+#include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/Gauge.hpp>
 
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/gauge.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 
 #include <algorithm>
 

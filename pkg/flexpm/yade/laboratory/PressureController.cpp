@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/PressureController.hpp>
 
-#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 

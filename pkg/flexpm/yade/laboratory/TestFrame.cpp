@@ -4,13 +4,13 @@
 #include <flexpm/yade/solver/snapshot_dict.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/parts/plate_contact.hpp>
+#include <flexpm/kernel/forces/solid_pressure.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
 #include <flexpm/kernel/laboratory/solid_beam.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
+#include <flexpm/kernel/parts/plate_contact.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
-#include <flexpm/kernel/forces/solid_pressure.hpp>
 #include <flexpm/kernel/statics/elastic_state.hpp>
 
 namespace yade {

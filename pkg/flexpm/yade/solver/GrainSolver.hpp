@@ -2,8 +2,8 @@
 /// @file  The engine that owns the packed arrays of the grains, in 2D or 3D, and steps them, paper Sec. 2.
 #pragma once
 
-#include <flexpm/kernel/forces/outer_forces.hpp>
 #include <flexpm/kernel/assembly/solid_state.hpp>
+#include <flexpm/kernel/forces/outer_forces.hpp>
 #include <flexpm/kernel/space/polyhedra.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 #include <flexpm/kernel/step/step.hpp>
@@ -45,7 +45,7 @@ public:
 	/// YADE calls it before it saves a scene.
 	void preSave(GrainSolver&);
 
-	flexpm::Assembly* assembled() override { return assembly.grains.count > 0 ? &assembly : nullptr; }
+	flexpm::Assembly*   assembled() override { return assembly.grains.count > 0 ? &assembly : nullptr; }
 	flexpm::SolidState* solid() override { return space.grains.count > 0 ? &space : nullptr; }
 	bool                holds(int place) const override;
 	/// Components of a vector of the grains; 0 without grains.
@@ -86,47 +86,47 @@ public:
 	/// @throws std::runtime_error  if measurePeriod is below 1
 	bool measured() const;
 
-	void       assemble(const flexpm_bindings::AssemblyInput& input, py::list materials, py::list pairs, py::list joints);
-	void       assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list materials, py::list pairs, vector<int> minerals, bool rigid);
-	void       addToScene();
-	void       scaleMasses();
-	Real       useRealMasses();
-	void       mirrorBodies();
-	void       resetEnergyBalance();
-	py::list   addSidePlates(int side, int pieces, bool bonded, Real friction, Real strip, bool seated);
-	int        addTouchingPlate(Vector3r normal, Real friction);
-	int        addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip, bool seated);
-	int        addJawPlate(Vector3r place, Vector3r centre, Real radius, Real angle, Real friction, Real strip);
-	int        findSidePlate(int side, bool bonded, Real friction, Real strip, bool seated);
-	int        findPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip, bool seated);
-	int        findJawPlate(Vector3r place, Vector3r centre, Real radius, Real angle, Real friction, Real strip);
-	void       holdEnds(bool bonded, Real friction);
-	void       holdBottom(bool plate);
-	void       holdDisc(Real jawRadius);
-	int        layLine(int side, Real x, Real z, Real width, bool pinned);
-	int        findLine(int side, Real x, Real z, Real width, bool pinned);
-	int        layPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip, bool seated);
-	int        findPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip, bool seated);
-	int        layJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip);
-	int        findJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip);
-	void       freePlate(int plate);
-	void       setMachine(int plate, Real stiffness);
-	py::tuple  gaugePoints(Vector3r first, Vector3r second);
-	py::tuple  sectionNodes(Real place, Vector3r direction, Real width);
-	void       fixTangential(int plate);
-	py::tuple  nodePlaces(bool bonded);
-	int        addNodeSet(vector<int> nodes, bool x, bool y, bool z);
-	void       turnNodeSet(int set, py::object about);
-	void       moveNodeSet(int set, Vector3r velocity, Vector3r spin);
-	py::list   nodeSets();
-	void       holdSide(int side, bool x, bool y, bool z);
-	int        addWall(Vector3r position, Vector3r normal, Real friction);
-	Vector3r   gravity() const;
-	void       setGravity(Vector3r acceleration);
-	py::list   plates();
-	py::tuple  elasticConstants();
-	py::dict   energies();
-	py::dict   snapshot();
+	void assemble(const flexpm_bindings::AssemblyInput& input, py::list materials, py::list pairs, py::list joints);
+	void assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list materials, py::list pairs, vector<int> minerals, bool rigid);
+	void addToScene();
+	void scaleMasses();
+	Real useRealMasses();
+	void mirrorBodies();
+	void resetEnergyBalance();
+	py::list  addSidePlates(int side, int pieces, bool bonded, Real friction, Real strip, bool seated);
+	int       addTouchingPlate(Vector3r normal, Real friction);
+	int       addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip, bool seated);
+	int       addJawPlate(Vector3r place, Vector3r centre, Real radius, Real angle, Real friction, Real strip);
+	int       findSidePlate(int side, bool bonded, Real friction, Real strip, bool seated);
+	int       findPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip, bool seated);
+	int       findJawPlate(Vector3r place, Vector3r centre, Real radius, Real angle, Real friction, Real strip);
+	void      holdEnds(bool bonded, Real friction);
+	void      holdBottom(bool plate);
+	void      holdDisc(Real jawRadius);
+	int       layLine(int side, Real x, Real z, Real width, bool pinned);
+	int       findLine(int side, Real x, Real z, Real width, bool pinned);
+	int       layPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip, bool seated);
+	int       findPatch(Vector3r normal, Vector3r low, Vector3r high, Real friction, bool bonded, Real strip, bool seated);
+	int       layJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip);
+	int       findJaw(Vector3r towards, Real ratio, Real angle, Real friction, Real strip);
+	void      freePlate(int plate);
+	void      setMachine(int plate, Real stiffness);
+	py::tuple gaugePoints(Vector3r first, Vector3r second);
+	py::tuple sectionNodes(Real place, Vector3r direction, Real width);
+	void      fixTangential(int plate);
+	py::tuple nodePlaces(bool bonded);
+	int       addNodeSet(vector<int> nodes, bool x, bool y, bool z);
+	void      turnNodeSet(int set, py::object about);
+	void      moveNodeSet(int set, Vector3r velocity, Vector3r spin);
+	py::list  nodeSets();
+	void      holdSide(int side, bool x, bool y, bool z);
+	int       addWall(Vector3r position, Vector3r normal, Real friction);
+	Vector3r  gravity() const;
+	void      setGravity(Vector3r acceleration);
+	py::list  plates();
+	py::tuple elasticConstants();
+	py::dict  energies();
+	py::dict  snapshot();
 	/// That of any state in 3D.
 	static py::dict snapshotOf(const flexpm::SolidState& state);
 	py::tuple       cracks();

@@ -43,7 +43,10 @@ void GrainSolver::requirePlane() const
 void GrainSolver::requireSolid() const
 {
 	requireGrains();
-	if (dimension() == 2) fail("GrainSolver: grains", "those of the plane", "must be of a solid for this; lay plates and jaws with addSidePlates, addPatchPlate and addJawPlate");
+	if (dimension() == 2)
+		fail("GrainSolver: grains",
+		     "those of the plane",
+		     "must be of a solid for this; lay plates and jaws with addSidePlates, addPatchPlate and addJawPlate");
 }
 
 void GrainSolver::requireGrains() const

@@ -6,13 +6,13 @@
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
+#include <flexpm/kernel/laboratory/solid_ends.hpp>
+#include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/laboratory/test_frame.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/grain_parting.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
 #include <flexpm/kernel/measure/overlaps.hpp>
-#include <flexpm/kernel/laboratory/solid_ends.hpp>
-#include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/measure/solid_overlaps.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/statics/elastic_constants.hpp>

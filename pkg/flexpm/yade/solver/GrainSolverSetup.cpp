@@ -5,10 +5,10 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
-#include <flexpm/kernel/step/solid_masses.hpp>
-#include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/statics/solid_loading.hpp>
 #include <flexpm/kernel/statics/solid_spectrum.hpp>
+#include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/topology/assembly_build.hpp>
 #include <flexpm/kernel/topology/solid_build.hpp>
 #include <flexpm/yade/bindings/assembly_input.hpp>
@@ -183,8 +183,7 @@ Real GrainSolver::useRealMasses()
 void GrainSolver::resetEnergyBalance()
 {
 	if (!solid()) return flexpm::reset_energy_balance(current());
-	if (space.step > 0)
-		flexpm::refuse(getClassName() + ".resetEnergyBalance: steps", double(space.step), "", "must be 0; call it before the first step");
+	if (space.step > 0) flexpm::refuse(getClassName() + ".resetEnergyBalance: steps", double(space.step), "", "must be 0; call it before the first step");
 	flexpm::begin_balance(space);
 }
 
