@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Pressure on sides of a specimen in space, paper Sec. 4.1: sides.hpp there. It acts on the
-/// surface triangles of grains that deform or are rigid, and follows them. SI units.
+/// @file  Pressure on sides of a specimen in 3D, paper Sec. 4.1. It acts on the surface triangles of
+/// deformable and of rigid grains and follows them. SI units.
 #pragma once
 
 #include <flexpm/kernel/assembly/solid_state.hpp>

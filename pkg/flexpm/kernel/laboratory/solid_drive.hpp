@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  The motion that what loads a specimen in space gives to it: loading_motion.hpp there. SI
-/// units.
+/// @file  The motion that driven ends, plates and node sets give to a specimen in 3D, deviation D30.
+/// SI units.
 #pragma once
 
 #include <flexpm/kernel/statics/solid_field.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Where a test of a solid between its ends takes load and strains from, and its scales:
-/// test_frame.hpp for a box and a cylinder. SI units.
+/// @file  Load, strains and scales of a test of a box, a cylinder or a disc in 3D between its ends.
+/// SI units.
 #pragma once
 
 #include <flexpm/kernel/laboratory/axial_measures.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Frames of a block of faces, the ways of their corners and the forces on these, `lanes` at
-/// a time: face_frame.hpp in lanes. Inlined into the functions that are compiled for each
-/// instruction set. Vectors are three rows.
+/// @file  Frames of a block of faces, displacements of their corners and forces on them, `lanes` at a
+/// time. Inlined into the functions that are compiled for each instruction set. Vectors are three
+/// rows.
 #pragma once
 
 #include <flexpm/kernel/assembly/solid_state.hpp>

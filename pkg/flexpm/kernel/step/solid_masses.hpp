@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Bound of the nodal stiffness, scaled and real masses of a specimen in space:
-/// mass_scaling.hpp for tetrahedra and faces, deviation D4.
+/// @file  Bound of the nodal stiffness, scaled and real masses of a specimen in 3D, of tetrahedra and
+/// faces, deviation D4.
 #pragma once
 
 #include <flexpm/kernel/assembly/solid_state.hpp>

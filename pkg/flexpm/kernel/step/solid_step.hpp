@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  One step of a specimen in space: step.hpp for deformable polyhedral grains.
+/// @file  One step of a specimen in 3D, of deformable or rigid polyhedral grains.
 #pragma once
 
 #include <flexpm/kernel/assembly/solid_plan.hpp>
