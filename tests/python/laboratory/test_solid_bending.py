@@ -11,14 +11,11 @@ from stopped_runs import same, taken_up
 import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
-from flexpm.errors import InputError
 from flexpm.kinds import toughness
 from flexpm.materials.material import default_name
 from flexpm.materials.mineral import Mineral
 from flexpm.specimens.mineral_map import minerals_of
 from flexpm.specimens.space.notch import notched
-
-import yade  # isort: skip  (flexpm tells Python where YADE is)
 
 #: Some hundred grains.
 LENGTH, DEPTH, HEIGHT = 0.036, 0.008, 0.008
@@ -133,9 +130,3 @@ def test_what_does_not_fit_a_beam_is_refused(asked, told, tmp_path, capsys):
     assert error.count("\n") == 1
     assert told in error
     assert not (tmp_path / "none").exists()
-
-
-def test_the_plane_keeps_rigs_of_parts(beam):
-    yade.O.reset()
-    with pytest.raises(InputError, match="PartRig: specimen = box, must be plane"):
-        flexpm.PartRig(flexpm.build(beam))
