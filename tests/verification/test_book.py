@@ -41,7 +41,7 @@ def test_the_page_shows_the_table_of_the_measurements():
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows([HEADER, *book(read())])
     assert BOOK.read_text(encoding="utf-8") == text.getvalue()
-    page = (ROOT / "doc" / "record" / "verification.rst").read_text(encoding="utf-8")
+    page = (ROOT / "doc" / "validation.rst").read_text(encoding="utf-8")
     assert f"../{BOOK.relative_to(ROOT)}" in page
 
 
