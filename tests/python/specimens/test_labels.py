@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 import os
@@ -13,11 +12,8 @@ import sys
 import numpy as np
 import pytest
 from drawn_images import (
-    IMAGES,
     LIMITS,
     PIXEL,
-    SIZE,
-    TABLE,
     THICKNESS,
     circles,
     drawn,
@@ -59,15 +55,6 @@ def test_drawn_images_keep_areas_and_neighbours(seed):
 def test_more_drawn_images(seed):
     """Those of 512 x 512 pixels are a table that scripts/night makes."""
     require_as_the_raster(drawn(seed), smallest_of(seed))
-
-
-def test_the_table_of_large_images_is_whole_and_within_its_limits():
-    with TABLE.open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    assert [int(row["seed"]) for row in rows] == list(range(IMAGES))
-    assert sum(int(row["side"]) == SIZE for row in rows) >= 5 * IMAGES // 6
-    for row in rows:
-        assert all(float(row[name]) <= most for name, most in LIMITS.items()), row
 
 
 def test_a_circle():
