@@ -54,8 +54,7 @@ class PartLoads(PartLayout):
                 along its normal and a crosshead, which then moves in its place (deviation D95).
                 The record has the columns ``crosshead``, its way along the loading [m], and
                 ``machine_energy``, stored in the spring [J], beside those of the plate; its
-                energies are those of the specimen; a jaw of a solid must be smooth. None: the plate
-                itself is moved.
+                energies are those of the specimen. None: the plate itself is moved.
 
         Raises:
             InputError: for what is no part of this rig or is there twice, nodes that are not held
@@ -253,7 +252,8 @@ class PartLoads(PartLayout):
             return
         now = self.built.solver.nodeSets()[part.number]
         place = np.subtract(now["place"], now["displacement"])
-        if now["floats"] != (pivot is None) or not (pivot is None or np.allclose(place, pivot[:2])):
+        apart = pivot is not None and not np.allclose(place, pivot[: len(place)])
+        if apart or now["floats"] != (pivot is None):
             raise InputError(f"turn: about = {pivot}, must be as the record has begun")
 
 

@@ -394,6 +394,40 @@ def test_the_static_solution_of_a_twist_turns_what_is_held():
     assert found.positions[held] - found.reference[held] == pytest.approx(way, rel=1e-6, abs=1e-14)
 
 
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_plate_that_slides_takes_along_what_friction_holds(model, box):
+    rig = rig_of(box, model)
+    floor, lid = rig.platen(0, friction=0.5), rig.platen(2, friction=0.5)
+    pin = rig.hold(ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.2 * SIZE))
+    rig.drive(lid, (1.0, 0.0, 0.0), against=pin)
+    found = rig.elastic(way=1e-6)
+    push = found.force(lid)[0]
+    assert push > 0.0
+    total = np.add(np.add(found.force(floor), found.force(lid)), found.force(pin))
+    assert total == pytest.approx((0.0, 0.0, 0.0), abs=1e-5 * push)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_held_nodes_without_a_point_bear_a_moment_alone(model):
+    rig = rig_of(flexpm.Specimen.box(SIZE, SIZE, 2.0 * SIZE, seed=1), model)
+    low = rig.hold(box=((0, 0, 0), (SIZE, SIZE, 0.3 * SIZE)))
+    high = rig.hold(where=lambda _x, _y, z: z > 1.7 * SIZE)
+    rig.turn(high, axis=(1, 0, 0))
+    found = rig.elastic(way=1e-6)
+    assert found.angle(high) == pytest.approx((1e-6, 0.0, 0.0))
+    couple = found.load / SIZE
+    assert found.force(high) == pytest.approx((0.0, 0.0, 0.0), abs=1e-5 * couple)
+    assert found.moment(low)[0] == pytest.approx(-found.load, rel=1e-6)
+    rig.strain_to(1e-4)
+    angle = rig.record["displacement"][-1]
+    assert rig.record["load"][-1] / angle == pytest.approx(found.load / 1e-6, rel=5e-3)
+    way = np.multiply(angle / 1e-6, found.displacement(high))
+    assert high.displacement == pytest.approx(way, abs=0.01 * np.linalg.norm(way))
+    assert np.linalg.norm(high.force) < 5e-3 * couple
+    with pytest.raises(InputError, match="turn: about = .*, must be as the record has begun"):
+        rig.turn(high, about=(0.0, 0.0, 0.0), axis=(1, 0, 0))
+
+
 def test_a_solid_turns_about_an_axis_as_told(box):
     rig = rig_of(box)
     held = rig.hold(ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.3 * SIZE))

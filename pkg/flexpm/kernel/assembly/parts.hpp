@@ -165,6 +165,9 @@ struct NodeSet {
     double kinetic = 0.0;                          ///< of the translation of one that floats
     double unbalanced = 0.0;  ///< largest force on it that nothing balances [N]
 
+    /// Where the pivot was at the reference [m].
+    Vector laid_pivot() const { return pivot - displacement; }
+
     bool holds(int axis) const { return axis == 0 ? holds_x : axis == 1 ? holds_y : holds_z; }
 
     /// Calls visit(name, member) for all members.

@@ -68,6 +68,19 @@ void DiagonalBlocks::add(int row, int column, double factor, const SpaceGradient
     }
 }
 
+void DiagonalBlocks::append(const SpaceGradient& k)
+{
+    const int triple = static_cast<int>(members_.size()),
+              group = static_cast<int>(first_.size()) - 1;
+    members_.push_back(triple);
+    group_.push_back(group);
+    place_.push_back(0);
+    first_.push_back(triple + 1);
+    start_.push_back(start_.back() + 9);
+    values_.resize(start_.back(), 0.0);
+    add(triple, triple, 1.0, k);
+}
+
 void DiagonalBlocks::invert(const std::vector<std::uint8_t>& held)
 {
     for (std::size_t g = 0; g + 1 < first_.size(); ++g) {

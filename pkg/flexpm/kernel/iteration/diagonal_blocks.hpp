@@ -19,6 +19,9 @@ public:
     /// Add to what two triples, the same or two of one group, have in common; others have no block.
     void add(int row, int column, double factor, const SpaceGradient& k);
 
+    /// Add a triple, which is a group of its own, with its block.
+    void append(const SpaceGradient& k);
+
     /// Put inverses in the places of the blocks. A held unknown stays 0; a block that resists no
     /// motion in some way, as of a grain that one point holds, gets a little stiffness there.
     ///

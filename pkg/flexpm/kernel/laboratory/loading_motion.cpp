@@ -129,7 +129,7 @@ void note_rates(Assembly& a, const StaticSolution& found, double sense)
     for (std::size_t s = 0; s < a.node_sets.size(); ++s) {
         const NodeSet& set = a.node_sets[s];
         PartMotion& given = a.loading.sets[s];
-        const Vector pivot = set.pivot - set.displacement;
+        const Vector pivot = set.laid_pivot();
         given.force = {};
         given.moment = {};
         for (std::size_t i = 0; i < set.nodes.size(); ++i) {

@@ -52,10 +52,11 @@ void forget_loading(SolidState& s)
     std::fill(s.loading.grains.velocity.begin(), s.loading.grains.velocity.end(), 0.0);
     std::fill(s.loading.grains.spin.begin(), s.loading.grains.spin.end(), 0.0);
     s.loading.plates.clear();
+    s.loading.sets.clear();
 }
 
 /// Bring what moves with the loading to `ratio` times that motion.
-void change_loading(SolidState& s, double ratio)
+void change_loading(SolidState& s, double ratio, double dt)
 {
     Grains& grains = s.grains;
     GrainMotion& given = s.loading.grains;
@@ -73,6 +74,12 @@ void change_loading(SolidState& s, double ratio)
         s.plates[i].velocity = s.plates[i].velocity + (ratio - 1.0) * own;
         own = ratio * own;
     }
+    for (std::size_t i = 0; i < s.loading.sets.size(); ++i) {
+        Vector& own = s.loading.sets[i].velocity;
+        s.node_sets[i].velocity = s.node_sets[i].velocity + (ratio - 1.0) * own;
+        own = ratio * own;
+    }
+    if (!s.loading.sets.empty()) drive_node_sets(s, dt);
 }
 
 void check(double velocity, double dt)
@@ -116,6 +123,11 @@ void start(SolidState& s, const SolidDrive& drive, const SolidField& field, doub
         NodeSet& moved = s.node_sets[set];
         (drive.turns ? moved.angle : moved.displacement) = sense * way;
     });
+    for (std::size_t i = 0; i < field.sets.size(); ++i) {
+        if (!s.node_sets[i].floats) continue;
+        s.node_sets[i].displacement = part * field.sets[i];
+        s.node_sets[i].pivot = s.node_sets[i].pivot + part * field.sets[i];
+    }
     set_velocity(s, drive, velocity, dt);
     begin_from(s, field, of_way * part, of_way * velocity / drive.length);
     promise_work(s, dt);
@@ -129,6 +141,7 @@ void take_over(SolidState& s, const SolidDrive& drive, const SolidField& field, 
     const double before = kinetic_of_velocities(s);
     set_velocity(s, drive, velocity, dt);
     add_motion(s, field, way_of_plate(s, drive, field) * velocity / drive.length);
+    if (!field.sets.empty()) drive_node_sets(s, dt);  // those that float have got a velocity
     promise_work(s, dt);
     s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
     if (!undamped) forget_loading(s);
@@ -140,11 +153,12 @@ void go_on(SolidState& s, const SolidDrive& drive, double velocity, double dt)
     const double old = velocity_of(s, drive);
     if (velocity == old) return;
     set_velocity(s, drive, velocity, dt);
+    if (old != 0.0) {
+        const double before = kinetic_of_velocities(s);
+        change_loading(s, velocity / old, dt);
+        s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
+    }
     promise_work(s, dt);
-    if (old == 0.0) return;
-    const double before = kinetic_of_velocities(s);
-    change_loading(s, velocity / old);
-    s.ledger.prescribed_work[0] += kinetic_of_velocities(s) - before;
 }
 
 Array<double> loading_field(const SolidState& s)

@@ -104,9 +104,16 @@ void require_resistance(const SolidState& s, const PartGeometry& parts)
         const NodeSet& set = s.node_sets[number];
         for (int node : set.nodes) {
             const Vector place = space_vector(s.grains.reference, node);
-            const Vector way = drive.turns ? cross(ways[number], place - set.pivot) : ways[number];
-            for (int axis = 0; axis < 3; ++axis)
-                if (set.holds(axis)) support.add(place, axes[axis], stiffest, dot(axes[axis], way));
+            const Vector arm = place - set.laid_pivot();
+            const Vector way = drive.turns ? cross(ways[number], arm) : ways[number];
+            for (int axis = 0; axis < 3; ++axis) {
+                if (!set.holds(axis)) continue;
+                const double along = dot(axes[axis], way);
+                if (set.floats)
+                    support.add_turning(arm, axes[axis], stiffest, along);
+                else
+                    support.add(place, axes[axis], stiffest, along);
+            }
         }
     }
     support.require_resistance();

@@ -211,6 +211,8 @@ double kinetic_of_velocities(const SolidState& s)
         if (!body.spin_held) sum += 0.5 * dot(body.spin, body.angular_momentum);
     for (const Plate& plate : s.plates)
         if (plate.loaded) sum += 0.5 * plate.mass * dot(plate.velocity, plate.velocity);
+    for (const NodeSet& set : s.node_sets)
+        sum += kinetic_of_velocity(s, set);
     return sum;
 }
 

@@ -105,6 +105,14 @@ double power_of(const Grains& grains, const NodeSet& set)
 /// Power of its forces on the translation of one that floats [W].
 double float_power(const NodeSet& set) { return set.floats ? dot(set.force, set.velocity) : 0.0; }
 
+/// What a set does in the half step that begins.
+void promise_work(const Grains& grains, NodeSet& set, double dt)
+{
+    const double of_float = float_power(set);
+    set.work_next = 0.5 * dt * (power_of(grains, set) - of_float);
+    set.float_work_next = 0.5 * dt * of_float;
+}
+
 /// Velocity of a place of a set, at which a step takes it to where the rotation does.
 Vector velocity_at(const Grains& grains, const NodeSet& set, Vector place, double dt)
 {
@@ -143,9 +151,7 @@ template <class State> void drive(State& state, NodeSet& set, double dt)
         state.ledger.prescribed_work[2 * grains.block_of(grain) + 1] +=
             0.5 * dt * dot(reaction_at(grains, set, i), next - old);
     }
-    const double of_float = float_power(set);
-    set.work_next = 0.5 * dt * (power_of(grains, set) - of_float);
-    set.float_work_next = 0.5 * dt * of_float;
+    promise_work(grains, set, dt);
 }
 
 /// Mass of what a set holds, scaled or real [kg].
@@ -267,7 +273,7 @@ void set_pivot(BondedState& state, int set, Vector pivot)
     set_at(state, set).pivot = pivot;
 }
 
-void let_float(Assembly& a, int set) { set_at(a, set).floats = true; }
+void let_float(BondedState& state, int set) { set_at(state, set).floats = true; }
 
 void set_motion_of(BondedState& state, int set, Vector velocity, Vector spin)
 {
@@ -310,7 +316,7 @@ void promise_work(SolidState& s, double dt)
         if (any || !grains.is_rigid(g)) s.ledger.prescribed_work[2 * grains.block_of(g) + 1] = work;
     }
     for (NodeSet& set : s.node_sets)
-        set.work_next = 0.5 * dt * power_of(grains, set);
+        promise_work(grains, set, dt);
 }
 
 template <class State> void update_node_sets(State& state, double dt, double damping)

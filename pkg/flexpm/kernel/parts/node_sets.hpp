@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Node sets: which nodes they may hold, how these move, and what that takes. SI units.
-/// Templates are for Assembly and SolidState. No set of a solid floats (deviation D101).
+/// Templates are for Assembly and SolidState.
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
@@ -26,7 +26,7 @@ int add_node_set(State& state, const std::vector<int>& nodes, std::array<bool, 3
 void set_pivot(BondedState& state, int set, Vector pivot);
 
 /// Let a set move under the forces on it, apart from its rotation.
-void let_float(Assembly& a, int set);
+void let_float(BondedState& state, int set);
 
 /// Velocity of the pivot, which one that floats finds itself [m/s], and spin about that [rad/s], in
 /// 2D about z; drive_node_sets() takes them to the nodes.

@@ -89,8 +89,6 @@ void set_machine(BondedState& state, int plate, double stiffness)
         refuse("stiffness of a machine", stiffness, "N/m",
             "must be given once, was " + number(p.machine_stiffness) + " N/m");
     }
-    if (state.grains.layout.dimension == 3 && !p.normals.empty() && p.friction > 0.0)
-        refuse("friction of a jaw in a soft machine", p.friction, "", "must be 0 in 3D");
     p.machine_stiffness = stiffness;
     p.machine_give = dot(p.normal, p.force) / stiffness;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace flexpm {
@@ -59,23 +60,78 @@ void follow(Plate& plate, Vector motion)
     plate.turn = plate.turn + turn_of(plate, motion);
 }
 
+/// A point of a jaw with friction before its plate gives way, in 2D.
+struct EdgeOfJaw {
+    int index;
+    double shear_stiffness;          ///< [N/m]
+    double gap, slip, shear;         ///< before a give [m, m, N]
+    double along_give, across_give;  ///< of its normal and its tangent along the plate's normal
+
+    /// Force along the plate's normal at a give [N].
+    double push(const Plate& plate, double give) const
+    {
+        const double normal = normal_force(plate, index, gap + give * along_give);
+        const double trial = shear - shear_stiffness * (slip + give * across_give);
+        return normal * along_give + within_friction(plate, normal, trial) * across_give;
+    }
+};
+
+/// The same in 3D, where the spring of friction has two components.
+struct TriangleOfJaw {
+    int index;
+    double shear_stiffness;  ///< [N/m]
+    double gap;              ///< before a give [m]
+    double along_give;       ///< of its normal along the plate's normal
+    Vector stretch;          ///< of the spring of friction before a give [m]
+    Vector across_give;      ///< growth of that by a give [-]
+
+    double push(const Plate& plate, double give) const
+    {
+        const double normal = normal_force(plate, index, gap + give * along_give);
+        const Vector trial = -shear_stiffness * (stretch + give * across_give);
+        const double size = norm(trial), bears = within_friction(plate, normal, size);
+        const double part = size > bears ? bears / size : 1.0;
+        return normal * along_give + part * dot(trial, across_give);
+    }
+};
+
+std::vector<EdgeOfJaw> points_of_jaw(const Assembly& a, const Plate& plate, double dt)
+{
+    std::vector<EdgeOfJaw> points;
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const PlatePoint p = plate_point(plate, i);
+        const auto nodes = a.facets.nodes(p.facet);
+        const Vector v = vector_on_edge(a.grains.velocity, nodes, p.weight);
+        const Vector way =
+            vector_on_edge(a.grains.displacement, nodes, p.weight) + dt * v - plate.displacement;
+        const Vector along = point_normal(plate, i), across = tangent_of(in_plane(along));
+        points.push_back({ i, p.shear_stiffness, plate.gap[i] + dot(along, way),
+            dt * dot(across, v - plate.velocity), plate.shear_force[i], dot(plate.normal, along),
+            dot(plate.normal, across) });
+    }
+    return points;
+}
+
+std::vector<TriangleOfJaw> points_of_jaw(const SolidState& s, const Plate& plate, double dt)
+{
+    std::vector<TriangleOfJaw> points;
+    for (int i = 0; i < plate_points(plate); ++i) {
+        const Vector way = way_after(s, plate, i, dt), along = point_normal(plate, i);
+        const double gap = dot(along, way), give = dot(along, plate.normal);
+        points.push_back({ i, sliding_stiffness(plate, i), plate.gap[i] + gap, give,
+            way - gap * along - three_axes(plate.slid, i), plate.normal - give * along });
+    }
+    return points;
+}
+
 /// A jaw with friction in a soft machine: as it gives, it slips along the rim, too, and friction
 /// bears a part of its load. What is missing of that has no energy, but grows with the give.
-class RubbingJaw {
+template <class Point> class RubbingJaw {
 public:
-    RubbingJaw(const Assembly& a, const Plate& plate, double dt) : plate(plate)
+    RubbingJaw(const Plate& plate, std::vector<Point> points) :
+        plate(plate),
+        points(std::move(points))
     {
-        for (int i = 0; i < plate_points(plate); ++i) {
-            const PlatePoint p = plate_point(plate, i);
-            const auto nodes = a.facets.nodes(p.facet);
-            const Vector v = vector_on_edge(a.grains.velocity, nodes, p.weight);
-            const Vector way = vector_on_edge(a.grains.displacement, nodes, p.weight) + dt * v
-                - plate.displacement;
-            const Vector along = point_normal(plate, i), across = tangent_of(in_plane(along));
-            points.push_back({ i, p.shear_stiffness, plate.gap[i] + dot(along, way),
-                dt * dot(across, v - plate.velocity), plate.shear_force[i],
-                dot(plate.normal, along), dot(plate.normal, across) });
-        }
     }
 
     /// The give at which nothing is missing, by the rule of Illinois.
@@ -105,13 +161,6 @@ public:
     }
 
 private:
-    struct JawPoint {
-        int index;
-        double shear_stiffness;          ///< [N/m]
-        double gap, slip, shear;         ///< before a give [m, m, N]
-        double along_give, across_give;  ///< of its normal and its tangent along the plate's normal
-    };
-
     /// Bounds of a search that a load always ends.
     static constexpr double largest_reach = 1e6;
     static constexpr int most_looks = 100;
@@ -122,21 +171,24 @@ private:
     double missing(double give) const
     {
         double sum = plate.machine_stiffness * (plate.machine_give + give);
-        for (const JawPoint& p : points) {
-            const double normal = normal_force(plate, p.index, p.gap + give * p.along_give);
-            const double slip = p.slip + give * p.across_give;
-            const double shear = within_friction(plate, normal, p.shear - p.shear_stiffness * slip);
-            sum -= normal * p.along_give + shear * p.across_give;
-        }
+        for (const Point& p : points)
+            sum -= p.push(plate, give);
         return sum;
     }
 
     const Plate& plate;
-    std::vector<JawPoint> points;
+    std::vector<Point> points;
 };
 
 /// Whether friction has a part in the load of a plate.
 bool is_rubbing_jaw(const Plate& plate) { return !plate.normals.empty() && plate.friction > 0.0; }
+
+/// Motion of a soft plate at the end of a step: a give and turns.
+template <class State> Vector motion_of(const State& state, const Plate& plate, double dt)
+{
+    if (!is_rubbing_jaw(plate)) return plate_after(state, plate, dt).least();
+    return { RubbingJaw(plate, points_of_jaw(state, plate, dt)).balanced(), 0.0, 0.0 };
+}
 
 }  // namespace
 
@@ -148,9 +200,7 @@ double within_friction(const Plate& plate, double normal_force, double shear)
 
 double give_way(const Assembly& a, Plate& plate, double dt)
 {
-    const Vector motion = is_rubbing_jaw(plate)
-        ? Vector { RubbingJaw(a, plate, dt).balanced(), 0.0, 0.0 }
-        : plate_after(a, plate, dt).least();
+    const Vector motion = motion_of(a, plate, dt);
     follow(plate, motion);
     return motion.x;
 }
@@ -158,7 +208,7 @@ double give_way(const Assembly& a, Plate& plate, double dt)
 void give_way(SolidState& s, double dt)
 {
     for (Plate& plate : s.plates)
-        if (plate.seated || gives_way(plate)) follow(plate, plate_after(s, plate, dt).least());
+        if (plate.seated || gives_way(plate)) follow(plate, motion_of(s, plate, dt));
 }
 
 Vector opens(const Plate& plate, int index, double give)
@@ -190,6 +240,12 @@ PlateRates rates_of(const SolidState& s, const Plate& plate, const Array<double>
         const double spring = point_stiffness(plate, i);
         stiffness.add(spring, opens(plate, i));
         growth = growth + spring * dot(point_normal(plate, i), way) * opens(plate, i);
+        // friction holds what a jaw slips along as it gives
+        const Vector along = point_normal(plate, i);
+        const Vector slips = plate.normal - dot(along, plate.normal) * along;
+        const double sliding = gives_way(plate) ? sliding_stiffness(plate, i) : 0.0;
+        stiffness.add(sliding, { norm(slips), 0.0, 0.0 });
+        growth.x += sliding * dot(slips, way);
     }
     const Vector motion = stiffness.moved_by(growth);
     return { motion.x, turn_of(plate, motion) };

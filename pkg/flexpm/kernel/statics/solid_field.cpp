@@ -5,6 +5,7 @@
 #include <flexpm/kernel/parts/soft_plate.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
+#include <flexpm/kernel/statics/floating_sets.hpp>
 #include <flexpm/kernel/statics/linear_solid.hpp>
 
 #include <algorithm>
@@ -143,6 +144,13 @@ double driven_way(const LinearSolid::Press& p, const SolidDrive& drive)
     return is_driven(p, drive) ? dot(p.normal, drive.length * drive.direction) : 0.0;
 }
 
+/// The same along its face, which grains that friction holds follow [m].
+Vector driven_slide(const LinearSolid::Press& p, const SolidDrive& drive)
+{
+    if (!is_driven(p, drive) || p.sliding == 0.0) return {};
+    return drive.length * drive.direction - driven_way(p, drive) * p.normal;
+}
+
 /// Motions of what is free of plates under the loading, by where the nodes are.
 std::vector<Vector> motions_of(const LinearSolid& solid, const SolidDrive& drive, const double* u)
 {
@@ -168,8 +176,11 @@ std::vector<double> push_of(const LinearSolid& solid, const SolidDrive& drive)
     const std::vector<Vector> motions = motions_of(solid, drive, on_nodes.data());
     for (const LinearSolid::Press& p : solid.presses) {
         const double force = p.stiffness * way_at(p, drive, motions[p.plate]);
-        for (int k = 0; k < 3; ++k)
+        const Vector along = p.sliding * driven_slide(p, drive);
+        for (int k = 0; k < 3; ++k) {
             add_triple(on_nodes.data(), p.nodes[k], (3.0 * p.shares[k] * (force / 3.0)) * p.normal);
+            add_triple(on_nodes.data(), p.nodes[k], p.shares[k] * along);
+        }
     }
     return on_nodes;
 }
@@ -191,9 +202,10 @@ double load_of(const LinearSolid& solid, const SolidDrive& drive, const double* 
     double sum = 0.0;
     for (const LinearSolid::Press& p : solid.presses) {
         if (!is_driven(p, drive)) continue;
-        const double pressed =
-            way_at(p, drive, motions[p.plate]) - dot(p.normal, solid.way_before(p, u));
+        const Vector way = solid.way_before(p, u), across = dot(p.normal, way) * p.normal;
+        const double pressed = way_at(p, drive, motions[p.plate]) - dot(p.normal, way);
         sum += p.stiffness * pressed * dot(p.normal, drive.direction);
+        sum += p.sliding * dot(driven_slide(p, drive) - (way - across), drive.direction);
     }
     return sum;
 }
@@ -205,13 +217,42 @@ template <class Give> void give_ways(const SolidState& s, const SolidDrive& driv
         const NodeSet& set = s.node_sets[number];
         const Vector load = sense * drive.length * drive.direction;
         for (std::size_t i = 0; i < set.nodes.size(); ++i) {
-            const Vector arm = space_vector(s.grains.reference, set.nodes[i]) - set.pivot;
+            const Vector arm = space_vector(s.grains.reference, set.nodes[i]) - set.laid_pivot();
             const Vector way = drive.turns ? cross(load, arm) : load;
             const double along[] = { way.x, way.y, way.z };
             for (int axis = 0; axis < 3; ++axis)
                 if (set.holds(axis)) give(set.grains[i], set.nodes[i], axis, along[axis]);
         }
     });
+}
+
+/// Nodes of the sets that float, in the order of these.
+/// @param triple_of  triple_of(grain, node): the unknowns of a node
+template <class TripleOf>
+std::vector<FloatingNodes> floating_nodes(const SolidState& s, TripleOf triple_of)
+{
+    std::vector<FloatingNodes> found;
+    for (const NodeSet& set : s.node_sets) {
+        if (!set.floats) continue;
+        found.push_back({ {}, { set.holds_x, set.holds_y, set.holds_z } });
+        for (std::size_t i = 0; i < set.nodes.size(); ++i)
+            found.back().triples.push_back(triple_of(set.grains[i], set.nodes[i]));
+    }
+    return found;
+}
+
+/// Translations of node sets, from the unknowns at the end of a solution.
+std::vector<Vector> set_ways(
+    const SolidState& s, const std::vector<double>& u, const std::vector<FloatingNodes>& floating)
+{
+    std::vector<Vector> ways(floating.empty() ? 0 : s.node_sets.size());
+    const double* next = u.data() + u.size() - 3 * floating.size();
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        if (!s.node_sets[i].floats) continue;
+        ways[i] = triple_at(next, 0);
+        next += 3;
+    }
+    return ways;
 }
 
 /// Forces that given ways leave on what is free, added to those of a load.
@@ -247,12 +288,15 @@ SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, const So
         given[3 * numbers.of(grain, node) + axis] = way;
     });
     add_given(solid, given, load);
-    const FreeSolution found = solve_free(solid, held, load, guess);
+    const auto floating =
+        floating_nodes(s, [&](int grain, int node) { return numbers.of(grain, node); });
+    const FreeSolution found = solve_floating(solid, floating, held, load, guess);
     SolidField field;
     for (std::size_t n = 0; n < solid.places.size(); ++n)
         field.ways.push_back(triple_at(given.data(), static_cast<int>(n))
             + triple_at(found.u.data(), static_cast<int>(n)));
     field.plates = plate_motions(s, solid, drive, found.u.data());
+    field.sets = set_ways(s, found.u, floating);
     field.load = load_of(solid, drive, found.u.data());  // no given node lies before a plate
     return field;
 }
@@ -274,7 +318,8 @@ SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, const S
     give_ways(
         s, drive, [&](int grain, int, int axis, double way) { given[6 * grain + axis] = way; });
     add_given(rigid, given, load);
-    FreeSolution found = solve_free(rigid, held, load, guess);
+    const auto floating = floating_nodes(s, [](int grain, int) { return 2 * grain; });
+    FreeSolution found = solve_floating(rigid, floating, held, load, guess);
     for (std::size_t i = 0; i < given.size(); ++i)
         found.u[i] += given[i];
     SolidField field;
@@ -284,6 +329,7 @@ SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, const S
     }
     const std::vector<double> moved = rigid.on_nodes(found.u.data());
     field.plates = plate_motions(s, solid, drive, moved.data());
+    field.sets = set_ways(s, found.u, floating);
     field.load = load_of(solid, drive, moved.data());
     return field;
 }

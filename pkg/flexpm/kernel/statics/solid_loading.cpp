@@ -75,6 +75,17 @@ void add_plate_motion(SolidState& s, const SolidField& field, double rate)
     }
 }
 
+/// The same for node sets that float.
+void add_set_motion(SolidState& s, const SolidField& field, double rate)
+{
+    if (!field.sets.empty()) s.loading.sets.resize(s.node_sets.size());
+    for (std::size_t i = 0; i < field.sets.size(); ++i) {
+        const Vector velocity = rate * field.sets[i];
+        s.node_sets[i].velocity = s.node_sets[i].velocity + velocity;
+        s.loading.sets[i].velocity = velocity;
+    }
+}
+
 void add_node_motion(SolidState& s, int node, Vector velocity)
 {
     set_space_vector(s.loading.grains.velocity, node, velocity);
@@ -103,6 +114,7 @@ void add_motion(SolidState& s, const SolidField& field, double rate)
         set_space_vector(s.loading.grains.spin, 3 * g, spin);
     }
     add_plate_motion(s, field, rate);
+    add_set_motion(s, field, rate);
 }
 
 void begin_from(SolidState& s, const SolidField& field, double extent, double rate)
@@ -117,6 +129,7 @@ void begin_from(SolidState& s, const SolidField& field, double extent, double ra
     for (int g = 0; g < static_cast<int>(s.bodies.size()); ++g)
         begin_body(s, g, field, extent, rate);
     add_plate_motion(s, field, rate);
+    add_set_motion(s, field, rate);
     begin_balance(s);
 }
 

@@ -27,8 +27,10 @@ struct SolidField {
     /// Motions of the plates that a load moves or that turn on a seat, by number; none of others
     /// and beyond the last of them.
     std::vector<PlateMotion> plates = {};
-    double load = 0.0;  ///< of driven plates along the way for which the field is [N]
+    std::vector<Vector> sets = {};  ///< translations of node sets that float, by number [m]
+    double load = 0.0;              ///< of driven plates along the way for which the field is [N]
 
+    Vector of_set(std::size_t set) const { return set < sets.size() ? sets[set] : Vector {}; }
     PlateMotion of_plate(std::size_t plate) const
     {
         return plate < plates.size() ? plates[plate] : PlateMotion {};

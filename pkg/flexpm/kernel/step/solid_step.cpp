@@ -6,6 +6,7 @@
 #include <flexpm/kernel/core/rows_of_four.hpp>
 #include <flexpm/kernel/core/thread_team.hpp>
 #include <flexpm/kernel/forces/solid_pressure.hpp>
+#include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/soft_plate.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/space_lanes/face_forces.hpp>
@@ -189,6 +190,7 @@ void step(SolidState& s, const StepOptions& options)
         fail("step " + std::to_string(s.step) + ": contacts without a middle face",
             std::to_string(turned), "must be 0; load more slowly, or end the test earlier");
     }
+    update_node_sets(s, options.dt, options.damping);
 }
 
 }  // namespace flexpm

@@ -54,7 +54,6 @@ void GrainSolver::takeSolidStep()
 		diverged = true;
 		throw;
 	}
-	flexpm::update_node_sets(space, scene->dt, stepOptions().damping);
 }
 
 flexpm::StepOptions GrainSolver::stepOptions() const

@@ -73,10 +73,7 @@ int GrainSolver::addNodeSet(vector<int> nodes, bool x, bool y, bool z)
 
 void GrainSolver::turnNodeSet(int set, py::object about)
 {
-	if (about.is_none()) {
-		if (solid()) throw std::invalid_argument("turnNodeSet: about = None, must be a place: no node set of a solid floats");
-		return flexpm::let_float(assembly, set);
-	}
+	if (about.is_none()) return flexpm::let_float(state(), set);
 	const Vector3r pivot = py::extract<Vector3r>(about);
 	flexpm::set_pivot(state(), set, fromYade(pivot));
 }

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from functools import partial
 from typing import NoReturn, Unpack
 
-import numpy as np
 from yade import wrapper
 
 from ...dimensions import refused
@@ -21,7 +20,7 @@ from ..outcome.calls import recording
 from ..outcome.kept import Leaves
 from ..part_rig import PartRig
 from ..parts import HeldNodes
-from ..places import SPACE, Place, Vector, require_direction
+from ..places import SPACE, Place, require_direction
 from ..statics.solid_state import SolidPartStatics
 from .part_layout import SolidPartLayout
 from .patches import sides_under
@@ -82,8 +81,8 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         Args:
             parts: Sets that turn right-handed about the axis.
             back: Sets that turn the other way by the same angle.
-            about: x, y and z of a point on the axis of all [m]. None: the axis of each goes through
-                the mean of its places. Axes stay where they are (deviation D101).
+            about: x, y and z of a point on the axis of all [m], which stays. None: each turns about
+                the mean of its places, free to move, so that it bears a moment alone (D53).
             axis: x, y and z of its direction.
             area, length, strength: As of the plane.
 
@@ -166,14 +165,6 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
 
     def _load_by(self, call: str, **asked: object) -> None:
         super()._load_by(call, **asked, turns=call == "turn")
-
-    def _turn_about(self, part: HeldNodes, pivot: Vector | None) -> None:
-        if pivot is None:
-            return
-        if not self._begun:
-            self.built.solver.turnNodeSet(part.number, pivot)
-        elif not np.allclose(np.subtract(part.place, part.displacement), pivot):
-            raise InputError(f"turn: about = {pivot}, must be as the record has begun")
 
     def _begin_pressures(self, numbers: list[int], values: list[float]) -> Span:
         self._free(numbers)
