@@ -319,7 +319,7 @@ def test_handles_are_copied_and_say_what_is_not_theirs(solid, make):
         ("O.bodies.clear()", "SolidSolver|grains in O.bodies = 0"),
         ("wrapper.LaguerreCell(grain=10**6).positions", "grain = 1000000, is no grain"),
         ("wrapper.LobattoPhys().forces", "contact = -1, is no contact"),
-        ("model.solver.sideNodes(0)", "must be of the plane"),
+        ("model.solver.sideNodes(0)", "must be 2D for this call"),
         ("model.solver.mirrorPeriod = 0", "mirrorPeriod = 0"),
     ],
 )

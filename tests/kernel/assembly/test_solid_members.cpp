@@ -2,6 +2,7 @@
 /// @file  The state of a solid lists all that a run continues from, to the same bits.
 #include "support/catch.hpp"
 
+#include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
 #include <flexpm/kernel/statics/solid_field.hpp>
@@ -62,8 +63,10 @@ TEST_CASE("A solid saved after any step goes on to the same bits", "[solids]")
                 step(loaded, { each.dt, each.damping, 2, true });
                 step(whole, each);
             }
-            drive_top(loaded, 0.9 * top_velocity(loaded), each.dt);
-            drive_top(whole, 0.9 * top_velocity(whole), each.dt);
+            for (SolidState* s : { &loaded, &whole }) {
+                const SolidDrive top = drive_of_top(*s);
+                go_on(*s, top, 0.9 * velocity_of(*s, top), each.dt);
+            }
             CAPTURE(rigid, k);
             CHECK(same_bits::difference(whole, loaded).empty());
         }

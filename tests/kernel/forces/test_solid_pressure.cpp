@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/forces/solid_pressure.hpp>
+#include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/measure/mean_stress.hpp>
@@ -307,7 +308,7 @@ TEST_CASE("A confined solid has the work of its pressure on the change of its vo
         const double work = s.ledger.pressure_work, volume = watch.volume(), swept = watch.swept();
         hold_ends(s, { false, false });
         scale_masses(s, each.damping);
-        take_over_ends(s, elastic_field(s), -3e-7 * p.solid.high.z, true, each.dt);
+        take_over(s, drive_of_top(s), elastic_field(s), -3e-7 * p.solid.high.z, true, each.dt);
         for (int k = 0; k < 300; ++k)
             step_at(pressure);
         const double change = watch.volume() - volume;
@@ -370,7 +371,7 @@ TEST_CASE("Each side of a box stands at its own pressure, and the ends take over
         set_pressure(s, top, 0.0);
         hold_ends(s, { false, false });
         scale_masses(s, each.damping);
-        take_over_ends(s, elastic_field(s), -1e-9 * p.solid.high.z, true, each.dt);
+        take_over(s, drive_of_top(s), elastic_field(s), -1e-9 * p.solid.high.z, true, each.dt);
         step(s, each);
         CHECK(end_forces(s).top == Approx(-along_y * area).epsilon(2e-3));
         double worst = 0.0;

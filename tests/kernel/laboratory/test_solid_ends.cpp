@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/laboratory/softening_ahead.hpp>
+#include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/kernel/laboratory/solid_ends.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
 #include <flexpm/kernel/laboratory/steady_motion.hpp>
@@ -275,7 +276,7 @@ TEST_CASE("A plate only presses unless it is bonded, and lies on an end once", "
     add_end_plate(s, SolidSide::bottom, false);
     scale_masses(s, damping);
     CHECK_THROWS_WITH(hold_ends(s, { false, false }), Catch::Contains("held already"));
-    drive_top(s, 1e-9, dt);
+    go_on(s, drive_of_top(s), 1e-9, dt);
     for (int k = 0; k < 10; ++k)
         step(s, { dt, damping, 1, true });
     CHECK(end_forces(s).top == 0.0);
@@ -284,7 +285,7 @@ TEST_CASE("A plate only presses unless it is bonded, and lies on an end once", "
 
     SolidState soft = make_solid(p.cells, p.solid, granite());
     CHECK_THROWS_WITH(elastic_field(soft), Catch::Contains("held nodes = 0"));
-    CHECK_THROWS_WITH(drive_top(soft, 1.0, dt), Catch::Contains("call hold_ends()"));
+    CHECK_THROWS_WITH(start_ends(soft, {}, 0.0, 1.0, false, dt), Catch::Contains("call hold_ends()"));
 }
 
 TEST_CASE("Rough plates hold grains across as far as friction bears it", "[solids][many_steps]")
@@ -356,9 +357,10 @@ TEST_CASE("A change of the velocity raises no wave and is work of the ends", "[s
         SolidState s = held(box(60, 2), rigid, false);
         const SolidFrame frame = solid_frame(s, Sense::compression);
         start_ends(s, elastic_field(s), -2e-5, -2e-7 * frame.height, true, dt);
+        const SolidDrive top = drive_of_top(s);
         double largest = 0.0;
         for (int k = 0; k < 100; ++k) {
-            if (k % 20 == 10) drive_top(s, (k % 40 == 10 ? 0.1 : 10.0) * top_velocity(s), dt);
+            if (k % 20 == 10) go_on(s, top, (k % 40 == 10 ? 0.1 : 10.0) * velocity_of(s, top), dt);
             step(s, { dt, damping, 1, true });
             const AxialObservation now = observe(s, frame);
             largest = std::max(largest, now.end_mismatch);
@@ -366,7 +368,7 @@ TEST_CASE("A change of the velocity raises no wave and is work of the ends", "[s
         }
         CAPTURE(rigid, largest);
         CHECK(largest < 0.02);
-        CHECK(top_velocity(s) == Approx(-0.1 * 2e-7 * frame.height));
+        CHECK(velocity_of(s, top) == Approx(-0.1 * 2e-7 * frame.height));
     }
 }
 

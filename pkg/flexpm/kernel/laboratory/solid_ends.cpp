@@ -163,19 +163,6 @@ void start_ends(SolidState& s, const SolidField& field, double strain, double ve
     start(s, drive_of_top(s), field, strain, velocity, undamped, dt);
 }
 
-void take_over_ends(
-    SolidState& s, const SolidField& field, double velocity, bool undamped, double dt)
-{
-    need_held(s);
-    take_over(s, drive_of_top(s), field, velocity, undamped, dt);
-}
-
-void drive_top(SolidState& s, double velocity, double dt)
-{
-    need_held(s);
-    go_on(s, drive_of_top(s), velocity, dt);
-}
-
 ElasticConstants constants_between_ends(SolidState s)
 {
     hold_ends(s, { true, false });
@@ -183,12 +170,6 @@ ElasticConstants constants_between_ends(SolidState s)
     start_ends(s, elastic_field(s), small_strain, 0.0, false, 1.0);
     const AxialObservation found = observe(s, frame);
     return { found.axial_stress / found.axial_strain, found.lateral_strain / found.axial_strain };
-}
-
-double top_velocity(const SolidState& s)
-{
-    need_held(s);
-    return velocity_of(s, drive_of_top(s));
 }
 
 }  // namespace flexpm

@@ -48,27 +48,11 @@ void hold_side(SolidState& s, int side, int axis);
 void start_ends(SolidState& s, const SolidField& field, double strain, double velocity,
     bool undamped, double dt);
 
-/// Begin from the present state, as of a specimen that bears pressures, with the motion that a
-/// linear solution adds at the top's velocity. The kinetic energy that this gives is work of the
-/// boundary. Arguments and errors as of start_ends().
-void take_over_ends(
-    SolidState& s, const SolidField& field, double velocity, bool undamped, double dt);
-
-/// Move the top at another velocity from now on, and with it the motion that the loading gives, so
-/// that the change raises no wave. The kinetic energy that this gives is work of the boundary.
-///
-/// @param dt  time step [s]
-/// @throws std::invalid_argument  if ends are not held, or the velocity is not finite
-void drive_top(SolidState& s, double velocity, double dt);
-
 /// Young's modulus and Poisson's ratio of grains between smooth ends that they are bonded to, by
 /// their linear solution and as a record has them: grains that deform or are rigid.
 /// @param s  an unloaded specimen whose ends are not held
 /// @throws std::invalid_argument  if they are held, or there are none
 /// @throws std::runtime_error  as elastic_field()
 ElasticConstants constants_between_ends(SolidState s);
-
-/// Velocity of the top [m/s].
-double top_velocity(const SolidState& s);
 
 }  // namespace flexpm

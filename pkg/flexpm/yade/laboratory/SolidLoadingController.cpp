@@ -14,7 +14,7 @@ void SolidLoadingController::action()
 {
 	const auto solver = GrainSolver::ofScene(*scene);
 	auto*      state  = solver->solid();
-	if (!state) throw std::runtime_error("SolidLoadingController: solver = one of the plane, must be that of a solid");
+	if (!state) throw std::runtime_error("SolidLoadingController: specimen = 2D, must be 3D; take PlateController");
 	const Real before = drivenAt;
 	follow(velocity, seenVelocity, drivenAt);
 	if (gripped && drivenAt == before) return;

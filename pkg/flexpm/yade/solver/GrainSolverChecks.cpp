@@ -37,16 +37,14 @@ namespace {
 void GrainSolver::requirePlane() const
 {
 	requireGrains();
-	if (dimension() == 3) fail("GrainSolver: grains", "those of a solid", "must be of the plane for this; a solid is held and loaded by its ends");
+	if (dimension() == 3) fail("GrainSolver: specimen", "3D", "must be 2D for this call; the page 'Available in 2D and 3D' names what to use instead");
 }
 
 void GrainSolver::requireSolid() const
 {
 	requireGrains();
 	if (dimension() == 2)
-		fail("GrainSolver: grains",
-		     "those of the plane",
-		     "must be of a solid for this; lay plates and jaws with addSidePlates, addPatchPlate and addJawPlate");
+		fail("GrainSolver: specimen", "2D", "must be 3D for this call; addSidePlates, addPatchPlate and addJawPlate lay plates in 2D");
 }
 
 void GrainSolver::requireGrains() const
