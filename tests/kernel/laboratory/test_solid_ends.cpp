@@ -285,7 +285,8 @@ TEST_CASE("A plate only presses unless it is bonded, and lies on an end once", "
 
     SolidState soft = make_solid(p.cells, p.solid, granite());
     CHECK_THROWS_WITH(elastic_field(soft), Catch::Contains("held nodes = 0"));
-    CHECK_THROWS_WITH(start_ends(soft, {}, 0.0, 1.0, false, dt), Catch::Contains("call hold_ends()"));
+    CHECK_THROWS_WITH(
+        start_ends(soft, {}, 0.0, 1.0, false, dt), Catch::Contains("call hold_ends()"));
 }
 
 TEST_CASE("Rough plates hold grains across as far as friction bears it", "[solids][many_steps]")

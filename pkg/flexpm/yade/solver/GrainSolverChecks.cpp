@@ -43,8 +43,7 @@ void GrainSolver::requirePlane() const
 void GrainSolver::requireSolid() const
 {
 	requireGrains();
-	if (dimension() == 2)
-		fail("GrainSolver: specimen", "2D", "must be 3D for this call; addSidePlates, addPatchPlate and addJawPlate lay plates in 2D");
+	if (dimension() == 2) fail("GrainSolver: specimen", "2D", "must be 3D for this call; addSidePlates, addPatchPlate and addJawPlate lay plates in 2D");
 }
 
 void GrainSolver::requireGrains() const
