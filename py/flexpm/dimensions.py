@@ -87,12 +87,6 @@ FEATURES = {
         ("mesh", "--mesh"),
         "leave it out, the grains of a 3D specimen are meshed as fans",
     ),
-    "dynamic": Feature(
-        "loadings with real masses",
-        2,
-        ("dynamic", "--dynamic"),
-        "leave it out; a test that sends a wave has real masses",
-    ),
     "gravity": Feature("loads by gravity", 2, ("gravity", "--gravity"), "leave it out"),
     "start": Feature(
         "static starts",

@@ -295,7 +295,10 @@ def build(
     if is_solid(specimen.kind):
         _refuse_plane("build", points=points, mesh=mesh, gravity=gravity)
         if dynamic and model in SPHERE_MODELS:
-            raise refused(f"build: dynamic = True, must be False for {model} of a solid", "dynamic")
+            raise InputError(
+                f"build: dynamic = True, must be False for {model} of a solid; take flexible or "
+                "rigid grains"
+            )
     if model in SPHERE_MODELS:
         specimen.spec.require_discs(model)
         return spheres.build(

@@ -86,11 +86,6 @@ def _fitting(built: Model | SphereModel, tension: bool, runner: Runner | None) -
             )
         return SphereRig(built, tension=tension, runner=runner)
     if is_solid(built.specimen.kind):
-        if built.dynamic:
-            raise InputError(
-                "rig: dynamic = True, must be False for a solid, whose ends move slowly; build it "
-                "with scaled masses"
-            )
         kind = SolidDiscRig if built.specimen.kind == "solid-disc" else EndRig
         return kind(built, tension=tension, runner=runner)
     if built.name == "flexible" and built.specimen.kind == "rectangle":

@@ -215,7 +215,7 @@ class GrainRig(TestRig):
     def _velocity(self) -> FloatArray:
         """Velocity of what loads, 0 before the first loading [m/step, or m/s with real masses]."""
         loading = self._recorder.loading
-        if isinstance(loading, wrapper.EndDisplacementController):
+        if isinstance(loading, wrapper.EndDisplacementController | wrapper.SolidLoadingController):
             return np.array((0.0, loading.velocity, 0.0)) * loading.velocityFactor
         if isinstance(loading, wrapper.PlateController):
             return np.array(loading.velocity) * loading.velocityFactor

@@ -89,11 +89,6 @@ class PartRig(PartColumns, PartExcavation):
                 "takes specimens of 2D and 3D"
             )
         rates_of(kind, built.name, solid=self._of_solids)
-        if self._of_solids and built.dynamic:
-            raise InputError(
-                f"{self._call}: dynamic = True, must be False for a solid, whose parts move "
-                "slowly; build it with scaled masses"
-            )
         kept = KeptTest.of(built, self._call, leaves, kind=kind)
         super().__init__(built, runner=runner if kept is None else kept.runner)
         self.disc = False

@@ -205,11 +205,14 @@ def _check_solid(run: RunInputs) -> None:
     require_shape(run.kind, run.specimen.kind)
     for name in OF_THE_PLANE[1:]:
         value, usual = getattr(run, name), getattr(type(run), name, None)
-        if name == "dynamic" and run.kind.dynamic:
-            continue
         if value != usual and (name, value) != ("start", "rest"):
             asked = f"run: {with_unit(name, value)}, must be left out for a {run.specimen.kind}"
             raise refused(asked, name)
+    if run.dynamic and run.model in SPHERE_MODELS:
+        raise InputError(
+            f"run: dynamic = True, must be False for {run.model} of a {run.specimen.kind}; take "
+            "flexible or rigid grains"
+        )
 
 
 def _settle_own(run: RunInputs) -> None:

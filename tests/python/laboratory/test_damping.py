@@ -43,6 +43,11 @@ def square() -> flexpm.Specimen:
     return flexpm.Specimen.rectangle(SIDE, SIDE, thickness=0.01, seed=1)
 
 
+@pytest.fixture(scope="module")
+def cube() -> flexpm.specimens.space.specimen.SolidSpecimen:
+    return flexpm.Specimen.box(SIDE, SIDE, SIDE, seed=1)
+
+
 def fallen(square: flexpm.Specimen, model: str, **options) -> float:
     """Velocity of an unheld specimen over g t."""
     yade.O.reset()
@@ -158,9 +163,13 @@ def test_a_rig_tells_of_gravity_against_damping(square):
     assert any("with gravity" in line for line in rig.warnings)
 
 
-def test_a_confined_run_with_real_masses_settles_damped_and_is_loaded_undamped(square):
+@pytest.mark.parametrize(("test", "shape"), [("biaxial", "square"), ("triaxial", "cube")])
+def test_a_confined_run_with_real_masses_settles_damped_and_is_loaded_undamped(
+    test, shape, request
+):
+    rock = request.getfixturevalue(shape)
     options = {"confinement": 4e6, "dynamic": True, "rate": 2.0, "max_strain": 1e-4}
-    found = flexpm.run("biaxial", square, "augig-table7", "rigid", **options)
+    found = flexpm.run(test, rock, "augig-table7", "rigid", **options)
     assert found.curve["axial_stress"][0] == pytest.approx(4e6, rel=0.1)
     assert np.all(np.diff(found.curve["damping_energy"]) == 0.0)
     assert found.curve["axial_stress"][-1] > 5e6
@@ -176,14 +185,32 @@ def test_a_run_with_real_masses_begins_without_a_shock(model):
     assert factor[0] < 0.02 and factor[-1] == 1.0 and np.all(np.diff(factor) >= 0.0)
 
 
-def test_a_velocity_rises_from_the_one_before_it(square):
+@pytest.mark.parametrize(
+    ("model", "off"), [("rigid", 0.05), pytest.param("flexible", 0.01, marks=pytest.mark.long)]
+)
+def test_a_solid_with_real_masses_has_the_peak_of_scaled_ones(model, off):
+    core = flexpm.Specimen.box(0.009, 0.009, 0.018, seed=1)
+    real, scaled = (
+        flexpm.run("uniaxial", core, None, model, dynamic=dynamic, rate=0.5)
+        for dynamic in (True, False)
+    )
+    assert real.peak_stress == pytest.approx(scaled.peak_stress, rel=off)
+    assert real.youngs_modulus == pytest.approx(scaled.youngs_modulus, rel=0.01)
+    assert real.energy_error < 1e-3
+    factor = real.curve["velocity_factor"]
+    assert factor[0] < 0.02 and factor[-1] == 1.0 and np.all(np.diff(factor) >= 0.0)
+
+
+@pytest.mark.parametrize(("shape", "unit"), [("square", 1e-4), ("cube", 2e-4)])
+def test_a_velocity_rises_from_the_one_before_it(shape, unit, request):
     """A later loading with real masses: on at the same velocity, back from the slowest one."""
     yade.O.reset()
-    rig = flexpm.rig(flexpm.build(square, model="rigid", dynamic=True))
+    rock = request.getfixturevalue(shape)
+    rig = flexpm.rig(flexpm.build(rock, model="rigid", dynamic=True))
     factors = []
-    for strain in (2e-4, 4e-4, 3e-4):
+    for strain in (2.0, 4.0, 3.0):
         before = len(rig.record)
-        rig.strain_to(strain)
+        rig.strain_to(strain * unit)
         factors.append(rig.record["velocity_factor"][before:])
     assert factors[0][0] < 0.02 and factors[0][-1] == 1.0
     assert np.all(factors[1] == 1.0) and factors[2][0] < 0.02

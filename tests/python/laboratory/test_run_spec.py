@@ -76,8 +76,8 @@ def specs(draw) -> RunSpec:
     grains = model in GRAIN_MODELS
     loaded = test != "sonic"
     unused = UNUSED[test]
-    of_plane = not is_solid(shape_of(test))
-    dynamic = not loaded or (of_plane and "dynamic" not in unused and draw(st.booleans()))
+    takes_real = grains or not is_solid(shape_of(test))  # spheres of a solid have none
+    dynamic = not loaded or (takes_real and "dynamic" not in unused and draw(st.booleans()))
     cohesion = draw(st.floats(1e7, 3e7))
     material = materials.load(None, model).with_set([f"cohesion={cohesion!r}"], model)
     starts = ["", "rest"]
@@ -112,7 +112,7 @@ def specs(draw) -> RunSpec:
         max_strain=None if "max_strain" in unused else draw(st.none() | POSITIVE),
         stop_ratio=0.5 if "stop_ratio" in unused else draw(st.floats(0.01, LARGEST_STOP_RATIO)),
         dynamic=dynamic,
-        gravity=draw(st.floats(0.0, 100.0)) if grains and dynamic and loaded else 0.0,
+        gravity=draw(st.floats(0.0, 100.0)) if grains and dynamic and loaded and not solid else 0.0,
         start=draw(st.sampled_from(starts)),
         loading=draw(st.sampled_from(["", *loadings])),
         interaction_range=draw(spheres),

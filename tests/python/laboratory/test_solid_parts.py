@@ -233,10 +233,6 @@ def test_what_is_wrong_is_refused(box):
     with pytest.raises(InputError, match="test of model jcfpm = 'own', must be one of"):
         flexpm.SolidPartRig(spheres)
     yade.O.reset()
-    waves = flexpm.build(box, MATERIAL, "flexible", dynamic=True)
-    with pytest.raises(InputError, match="dynamic = True, must be False for a solid"):
-        flexpm.SolidPartRig(waves)
-    yade.O.reset()
     flat = flexpm.build(flexpm.Specimen.rectangle(SIZE, SIZE, 0.01, seed=1))
     with pytest.raises(InputError, match="must be a solid; flexpm.PartRig"):
         flexpm.SolidPartRig(flat)

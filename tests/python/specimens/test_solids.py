@@ -251,7 +251,7 @@ def test_the_command_refuses_in_one_line(box, tmp_path, capsys):
         ("uniaxial --shape box --joints a.csv", "joints = a.csv, must not be given for a box"),
         ("uniaxial --shape box --notch 0.01", "must not be given for uniaxial"),
         ("uniaxial --shape box --model inner", "must be one of flexible, rigid"),
-        ("uniaxial --shape box --dynamic", "must be left out for a box"),
+        ("uniaxial --shape box --model jcfpm --dynamic", "must be False for jcfpm of a box"),
         ("uniaxial --shape box --confinement 1e6", "must be 0 for uniaxial; use triaxial"),
         ("biaxial --shape cylinder --confinement 1e6", "triaxial is the test of solids"),
         ("triaxial --width 0.02", "must not be given for a cylinder"),

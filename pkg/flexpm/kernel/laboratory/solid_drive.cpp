@@ -147,6 +147,14 @@ void take_over(SolidState& s, const SolidDrive& drive, const SolidField& field, 
     if (!undamped) forget_loading(s);
 }
 
+void set_off(SolidState& s, const SolidDrive& drive, double velocity, double dt)
+{
+    check(velocity, dt);
+    set_velocity(s, drive, velocity, dt);
+    if (s.step == 0) begin_balance(s);
+    promise_work(s, dt);
+}
+
 void go_on(SolidState& s, const SolidDrive& drive, double velocity, double dt)
 {
     check(velocity, dt);

@@ -29,6 +29,11 @@ void start(SolidState& s, const SolidDrive& drive, const SolidField& field, doub
 void take_over(SolidState& s, const SolidDrive& drive, const SolidField& field, double velocity,
     bool undamped, double dt);
 
+/// Begin to move what loads at a velocity, and nothing else: with real masses waves carry it into
+/// the grains. Before the first step the balance of energies begins here.
+/// @throws std::invalid_argument  unless the velocity is finite
+void set_off(SolidState& s, const SolidDrive& drive, double velocity, double dt);
+
 /// Go on at another velocity, and with it the motion that the loading gives, so that the change
 /// raises no wave. The kinetic energy that this gives is work of the boundary.
 /// @throws std::invalid_argument  unless the velocity is finite

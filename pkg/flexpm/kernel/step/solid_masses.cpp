@@ -155,6 +155,19 @@ void complete_rigid(const SolidState& s, SolidBound& bound)
     }
 }
 
+/// Masses of loaded plates, for a factor on the stiffness.
+void scale_plates(SolidState& s, double factor)
+{
+    for (Plate& plate : s.plates)
+        if (plate.loaded) plate.mass = factor * bound_of(plate);
+}
+
+/// Mass over stiffness at a time step [s^2].
+double mass_factor(double damping, double dt)
+{
+    return mass_margin * (1.0 + damping) * dt * dt / 4.0;
+}
+
 SpaceTensor times(double factor, const SpaceTensor& t)
 {
     return { factor * t.xx, factor * t.yy, factor * t.zz, factor * t.yz, factor * t.xz,
@@ -192,11 +205,10 @@ void scale_masses(SolidState& s, double damping, double dt)
     check_damping(damping);
     check_positive("time step", dt, "s");
     const SolidBound bound = stiffness_bound(s);
-    const double factor = mass_margin * (1.0 + damping) * dt * dt / 4.0;
+    const double factor = mass_factor(damping, dt);
     for_each_mass(
         s.grains, [&](int i) { s.grains.inverse_mass[i] = 1.0 / (factor * bound.node[i]); });
-    for (Plate& plate : s.plates)
-        if (plate.loaded) plate.mass = factor * bound_of(plate);
+    scale_plates(s, factor);
     for (std::size_t g = 0; g < s.bodies.size(); ++g) {
         const double i = factor * bound.turn[g];
         s.bodies[g].inertia = { i, i, i, 0.0, 0.0, 0.0 };
@@ -240,6 +252,14 @@ void set_real_masses(SolidState& s)
     for_each_mass(s.grains, [&](int i) {
         if (mass[i] > 0.0) s.grains.inverse_mass[i] = 1.0 / mass[i];
     });
+}
+
+double set_real_masses(SolidState& s, double damping)
+{
+    set_real_masses(s);
+    const double dt = stable_step(s, damping);
+    scale_plates(s, mass_factor(damping, dt));
+    return dt;
 }
 
 double stable_step(const SolidState& s, double damping)

@@ -31,6 +31,10 @@ SolidMass real_mass(const SolidState& s, int grain);
 /// centre, and the moments of inertia about it.
 void set_real_masses(SolidState& s);
 
+/// The same; masses of loaded plates are scaled. Returns stable_step().
+/// @throws std::invalid_argument  if not 0 <= damping < 1
+double set_real_masses(SolidState& s, double damping);
+
 /// Time step that keeps the present masses stable [s].
 /// @throws std::invalid_argument  if not 0 <= damping < 1
 double stable_step(const SolidState& s, double damping);

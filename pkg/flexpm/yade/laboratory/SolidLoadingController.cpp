@@ -21,6 +21,11 @@ void SolidLoadingController::action()
 	const flexpm::SolidDrive parts { plates, { direction[0], direction[1], direction[2] }, 1, nodeSets, backSets, turns };
 	const auto               drive = parts.moves_top() ? flexpm::drive_of_top(*state) : parts;
 	if (gripped) return flexpm::go_on(*state, drive, drivenAt, scene->dt);
+	if (!solver->scaled) {
+		flexpm::set_off(*state, drive, drivenAt, scene->dt);
+		gripped = true;
+		return;
+	}
 	const int  threads = solver->threads();
 	const auto field   = parts.moves_top() ? flexpm::elastic_field(*state, threads) : flexpm::elastic_field(*state, drive, threads);
 	if (state->step > 0)

@@ -15,7 +15,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(SolidLoadingController, LoadingController,
 		"Moves the top of a solid, whose ends :yref:`GrainSolver.holdEnds` has taken hold of, along z, or plates and node sets that :yref:`GrainSolver.layLine`, layPatch and addNodeSet have laid. "
-		"It starts with the velocities of the elastic solution, so that no wave runs through the specimen, from where pressures have brought it. Place it before :yref:`GrainSolver`.",
+		"It starts with the velocities of the elastic solution, so that no wave runs through the specimen, from where pressures have brought it; with real masses it moves what loads alone. Place it before :yref:`GrainSolver`.",
 		((Real, velocity, 0.,, "Velocity of the top at factor 1, positive away from the bottom, or of the plates along their direction [m/s, or m per step with scaled masses]."))
 		((vector<int>, plates,,, "Numbers of the plates that move [-]."))
 		((vector<int>, nodeSets,,, "Numbers of the node sets that move; neither: the top does [-]."))

@@ -173,8 +173,7 @@ void GrainSolver::scaleMasses()
 
 Real GrainSolver::useRealMasses()
 {
-	if (solid()) flexpm::set_real_masses(space);
-	massStep    = solid() ? flexpm::stable_step(space, damping) : flexpm::set_real_masses(assembly, damping);
+	massStep    = onState([this](auto& state) { return flexpm::set_real_masses(state, damping); });
 	massDamping = damping;
 	scaled      = false;
 	return massStep;

@@ -57,7 +57,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
             leaves: What the test leaves, as for `flexpm.rig`.
 
         Raises:
-            InputError: as `PartRig`, and for real masses, with which parts would set off waves.
+            InputError: as `PartRig`.
         """
         self._patches, self._traces = {}, {}
         super().__init__(built, kind=kind, runner=runner, **leaves)
@@ -211,7 +211,8 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
     def _move(self, velocity: float, factor: float) -> None:
         loading = self._recorder.loading
         assert isinstance(loading, wrapper.SolidLoadingController)
-        if velocity and loading.gripped and loading.velocity == 0.0:
+        stood = loading.gripped and loading.velocity == 0.0
+        if velocity and stood and not self.built.dynamic:
             loading = self._take_hold_again(loading)
             assert isinstance(loading, wrapper.SolidLoadingController)
         # a rig that presses gives the velocity of its upper end, upwards
