@@ -88,12 +88,6 @@ FEATURES = {
         "leave it out, the grains of a 3D specimen are meshed as fans",
     ),
     "gravity": Feature("loads by gravity", 2, ("gravity", "--gravity"), "leave it out"),
-    "start": Feature(
-        "static starts",
-        2,
-        ("start", "--start static"),
-        "leave it out, the test begins at rest with the velocities of the elastic solution",
-    ),
     "inner": Feature(
         "inner particles", 2, ("model inner", "model inner-un"), "take flexible or rigid grains"
     ),

@@ -54,6 +54,8 @@ class Variant:
     rates: Mapping[str, Rates] = field(default_factory=dict)  #: by model
     only_models: tuple[str, ...] = ()  #: its models, if it has no rates
     sizes: Mapping[str, float] = field(default_factory=dict)  #: others than the shape's [m]
+    static_models: tuple[str, ...] = ()  #: that may start at the elastic solution
+    static_first: bool = False  #: they do by default
     #: Number of the results by model, 1 if it has none. A commit that changes a hash of a reference
     #: command (scripts/checks/reference.py) raises the number of its test and model; runs of these
     #: that were finished before get other keys and are done again.
@@ -85,8 +87,6 @@ class TestKind:
     settle: Settle = _as_given  #: checks and completes its own options
     confined: bool = False  #: it takes a confinement
     confine_hint: str = ""  #: what serves a user who wants one, if it does not
-    static_models: tuple[str, ...] = ()  #: that may start at the elastic solution
-    static_first: bool = False  #: they do, unless told otherwise
     dynamic: bool = False  #: it has real masses and no damping, always
     #: What may grow at the loading rate and its column of the record, the way of what is driven
     #: first, which needs none.
@@ -189,6 +189,11 @@ class TestKind:
     def sizes_of(self, shape: str) -> Mapping[str, float]:
         """Default sizes of a shape, where they are not the shape's [m]."""
         return self.variant_of(shape).sizes
+
+    @property
+    def starts_static(self) -> bool:
+        """Whether it may start at the elastic solution, on any of its shapes."""
+        return any(one.static_models for one in self.variants.values())
 
     @property
     def is_solve(self) -> bool:

@@ -333,6 +333,24 @@ class GrainRig(TestRig):
         solver = self.built.solver
         solver.measurePeriod = min(solver.measurePeriod, steps)
 
+    def _preloadable(self) -> wrapper.LoadingController:
+        """Driven ends that can take the specimen along its elastic solution."""
+        self._refuse_preload()
+
+    def _preload(self, steps: int) -> None:
+        ends = self._preloadable()
+        if self.built.dynamic:
+            raise InputError("load: static = True, must be False with real masses; leave it out")
+        try:
+            ends.preload(_PRELOAD_SHARE, steps)
+        except ValueError as error:
+            raise InputError(f"load: static = True, {error}") from None
+        self.built.solver.measurePeriod = 1
+
+    def _release(self) -> None:
+        self._set_row_period()
+        self._preloadable().release()
+
     def _synchronize(self) -> None:
         self.built.solver.mirrorPeriod = 1  # a script may go on from here
         self.built.solver.mirrorBodies()
@@ -391,15 +409,8 @@ class NodeRig(GrainRig):
     def _move(self, velocity: float, factor: float) -> None:
         self._ends().velocity, self._ends().velocityFactor = velocity, factor
 
-    def _preload(self, steps: int) -> None:
-        if self.built.dynamic:
-            raise InputError("load: static = True, must be False with real masses; leave it out")
-        self._ends().preload(_PRELOAD_SHARE, steps)
-        self.built.solver.measurePeriod = 1
-
-    def _release(self) -> None:
-        self._set_row_period()
-        self._ends().release()
+    def _preloadable(self) -> wrapper.LoadingController:
+        return self._ends()
 
 
 class PlateRig(GrainRig):

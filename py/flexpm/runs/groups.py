@@ -163,9 +163,9 @@ class LoadingOptions:
     start: str = declared(
         "",
         "Start of the loading. static: from the elastic solution below the first crack, for the "
-        "flexible model in "
-        f"{' and '.join(names(lambda kind: bool(kind.static_models)))}; it is the default of "
-        f"{' and '.join(names(lambda kind: kind.static_first))}",
+        "flexible model, in 3D also the rigid one, in "
+        f"{', '.join(names(lambda kind: kind.starts_static))}; in 2D it is the default of "
+        f"{' and '.join(names(lambda kind: kind.usual.static_first))}",
         choices=STARTS,
         metavar="rest|static",
     )

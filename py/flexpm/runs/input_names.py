@@ -29,7 +29,7 @@ def _unused(kind: TestKind) -> tuple[str, ...]:
     takes = [name for shape in kind.variants for name in SIZES[shape]]
     sizes = [name for name in _SIZES if name not in takes or name in renamed]
     pressure = () if kind.confined else ("confinement",)
-    start = () if kind.static_models else ("start",)
+    start = () if kind.starts_static else ("start",)
     halved = ("halvings",) if "rate" in kind.without else ()
     return tuple(dict.fromkeys((*sizes, *pressure, *start, *kind.without, *halved, *others)))
 

@@ -119,18 +119,22 @@ def _check_numbers(run: RunInputs) -> None:
 
 
 def _check_start(run: RunInputs) -> None:
-    if run.is_solid and not run.start:
-        _set(run, "start", "rest")
+    variant = run.kind.variant_of(run.specimen.kind)
     if not run.start:
-        first = run.kind.static_first and run.model in run.kind.static_models
+        first = variant.static_first and run.model in variant.static_models
         static = first and not run.dynamic and run.specimen.joints is None
         _set(run, "start", "static" if static else "rest")
     require_one_of("run: start", run.start, STARTS)
-    if run.start == "static" and run.model not in run.kind.static_models:
-        tests = names(lambda kind: bool(kind.static_models))
+    if run.start == "static" and run.model not in variant.static_models:
+
+        def starts(kind: TestKind) -> bool:
+            of = kind.variant_in(solid=run.is_solid)
+            return of is not None and bool(of.static_models)
+
+        models = "flexible or rigid" if run.is_solid else "flexible"
         raise InputError(
             f"run: start = static, must be rest for {run.test} of model {run.model}; static "
-            f"needs the flexible model and {' or '.join(tests)}"
+            f"needs the {models} model and {' or '.join(names(starts))}"
         )
     if run.start == "static" and run.dynamic:
         raise InputError(
@@ -205,7 +209,7 @@ def _check_solid(run: RunInputs) -> None:
     require_shape(run.kind, run.specimen.kind)
     for name in OF_THE_PLANE[1:]:
         value, usual = getattr(run, name), getattr(type(run), name, None)
-        if value != usual and (name, value) != ("start", "rest"):
+        if value != usual:
             asked = f"run: {with_unit(name, value)}, must be left out for a {run.specimen.kind}"
             raise refused(asked, name)
     if run.dynamic and run.model in SPHERE_MODELS:

@@ -160,14 +160,14 @@ class DiscLoop(InteractionLoop):
 class LoadingController(Engine):
     velocityFactor: float
     undampedLoading: bool
+    def preload(self, share: float, steps: int) -> None: ...
+    def release(self) -> None: ...
 
 class EndDisplacementController(LoadingController):
     velocity: float
     holdTop: bool
     elasticStart: bool
     ofJoints: bool
-    def preload(self, share: float, steps: int) -> None: ...
-    def release(self) -> None: ...
 
 class SolidLoadingController(LoadingController):
     velocity: float

@@ -114,9 +114,9 @@ void print_elastic()
     flexpm::scale_masses(a, 0.7);
     flexpm::grip_bottom(a);
     flexpm::move_top(a, -1e-8);
-    flexpm::preload(a, 0.5, 50, 1.0);
+    const std::vector<int> held = flexpm::preload(a, { 0.5, 50, 1.0 });
     sample_runs::step(a, 50);
-    flexpm::release_preload(a, -1e-8, 1.0, false);
+    flexpm::release_preload(a, held, -1e-8, 1.0, false);
     sample_runs::step(a, 50);
     const flexpm::SpecimenStrain strain = flexpm::specimen_strain(a);
     Hash hash;

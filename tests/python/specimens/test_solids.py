@@ -170,7 +170,6 @@ def test_a_solid_has_each_method_of_a_2d_specimen(box):
         (lambda solid: flexpm.compare("scb", solid), "must be a half-disc for scb"),
         (lambda solid: flexpm.run("uniaxial", solid, model="inner"), "one of flexible, rigid"),
         (lambda solid: flexpm.run("uniaxial", solid, points=1), "points = 1, must be left out"),
-        (lambda solid: flexpm.run("tension", solid, start="static"), "static, must be left out"),
         (lambda solid: flexpm.build(solid, mesh="fan"), "must be left out for a solid"),
         (lambda solid: flexpm.build(solid, model="inner"), "one of flexible, rigid"),
         (lambda solid: solid.with_joints({"a": [(0, 0), (1, 1)]}), "with_joints: specimen = box"),

@@ -245,6 +245,20 @@ double time_to_strength(const State& s, const Velocity& velocity)
     return least;
 }
 
+/// The same from the present state on; 0 if a point has left its elastic branch.
+template <class State, class Velocity>
+double time_left_to_strength(const State& s, const Velocity& velocity)
+{
+    double least = infinite;
+    for_each_growth(s, velocity, [&](int c, int p, const auto& growth) {
+        const auto [now, damage] = point_now(s, c, p);
+        const LawParameters& law = s.contacts.law_of(c);
+        const Strengths whole = { law.tensile_strength, law.cohesion, law.friction };
+        least = damage > 0.0 ? 0.0 : std::min(least, approach(whole, now, growth).time);
+    });
+    return least;
+}
+
 template <class State, class Velocity>
 double factor_along(const State& s, const Velocity& velocity, double dt, const SofteningRule& rule)
 {
@@ -275,6 +289,20 @@ Vector arm_of(const SolidState& s, int grain, int node)
         - s.grains.vector(s.grains.reference, s.grains.centre(grain));
 }
 
+/// Motion of the nodes along `sense` times a field, by grain and node.
+auto nodes_along(const SolidState& s, const SolidField& field, double sense)
+{
+    std::vector<int> first { 0 };
+    for (int g = 0; g < s.grains.count; ++g)
+        first.push_back(first.back() + s.grains.nodes_of(g));
+    return [&s, &field, sense, first](int grain, int node) {
+        if (!field.turns.empty())
+            return sense * (field.ways[grain] + cross(field.turns[grain], arm_of(s, grain, node)));
+        const int from = s.grains.block_nodes[s.grains.block_of(grain)];
+        return sense * field.ways[first[grain] + (node - from) / s.grains.layout.node_stride];
+    };
+}
+
 }  // namespace
 
 double elastic_time(const Assembly& a, const Array<double>& velocity)
@@ -284,15 +312,12 @@ double elastic_time(const Assembly& a, const Array<double>& velocity)
 
 double elastic_strain(const SolidState& s, const SolidField& field, double sense)
 {
-    std::vector<int> first { 0 };
-    for (int g = 0; g < s.grains.count; ++g)
-        first.push_back(first.back() + s.grains.nodes_of(g));
-    return time_to_strength(s, [&](int grain, int node) {
-        if (!field.turns.empty())
-            return sense * (field.ways[grain] + cross(field.turns[grain], arm_of(s, grain, node)));
-        const int from = s.grains.block_nodes[s.grains.block_of(grain)];
-        return sense * field.ways[first[grain] + (node - from) / s.grains.layout.node_stride];
-    });
+    return time_to_strength(s, nodes_along(s, field, sense));
+}
+
+double elastic_strain_left(const SolidState& s, const SolidField& field, double sense)
+{
+    return time_left_to_strength(s, nodes_along(s, field, sense));
 }
 
 double factor_before_softening(

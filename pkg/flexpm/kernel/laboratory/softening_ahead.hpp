@@ -29,6 +29,10 @@ double elastic_time(const Assembly& a, const Array<double>& velocity);
 /// point of the unloaded specimen leaves its elastic branch [-]; infinite if none does.
 double elastic_strain(const SolidState& s, const SolidField& field, double sense);
 
+/// The strain of such a field that is left until then from the present state on, as of a specimen
+/// under pressures [-]; 0 if a point has left its elastic branch.
+double elastic_strain_left(const SolidState& s, const SolidField& field, double sense);
+
 /// Factor on a velocity of the loading that brings its points to their strengths slowly enough [-];
 /// infinite if few enough are on the way there. A point's distance to its strength may shrink by 1
 /// / e in a crossing, or its traction grow by `growth`. Of the points that are elastic still, or

@@ -171,8 +171,10 @@ void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& su
                                 static_cast<double>(grains.prescribed[i]), undamped[i] },
             o.dt, o.damping, grains.velocity[i], sums, axis);
     }
-    sums.largest[0] = std::max(sums.largest[0], norm(moment) / grains.radius[grain]);
-    integrate_turn(s.bodies[grain], moment, spin_in(s.undamped(), grain), o, sums);
+    RigidBody& body = s.bodies[grain];
+    if (!body.spin_held)
+        sums.largest[0] = std::max(sums.largest[0], norm(moment) / grains.radius[grain]);
+    integrate_turn(body, moment, spin_in(s.undamped(), grain), o, sums);
 }
 
 void place_body(SolidState& s, int grain, Vector way)

@@ -37,14 +37,14 @@ void EndDisplacementController::preload(Real share, int steps)
 	follow(velocity, seenVelocity, drivenAt);
 	flexpm::grip_bottom(assembly);
 	flexpm::move_top(assembly, drivenAt);
-	flexpm::preload(assembly, share, steps, world->dt);
-	gripped = true;
+	heldBefore = flexpm::preload(assembly, { share, steps, world->dt });
+	gripped    = true;
 }
 
 void EndDisplacementController::release()
 {
 	const auto world = Omega::instance().getScene();
-	flexpm::release_preload(GrainSolver::ofScene(*world)->assembly, drivenAt, world->dt, undampedLoading);
+	flexpm::release_preload(GrainSolver::ofScene(*world)->assembly, heldBefore, drivenAt, world->dt, undampedLoading);
 }
 
 } // namespace yade

@@ -11,11 +11,11 @@ class EndDisplacementController : public LoadingController {
 public:
 	~EndDisplacementController() override;
 	void action() override;
-	void preload(Real share, int steps);
-	void release();
+	void preload(Real share, int steps) override;
+	void release() override;
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(EndDisplacementController, LoadingController,
+	YADE_CLASS_BASE_DOC_ATTRS(EndDisplacementController, LoadingController,
 		"Holds the bottom nodes of a rectangular specimen axially (one of them also laterally) and moves the top nodes; "
 		"no friction on either. Place it before :yref:`GrainSolver`.",
 		((Real, velocity, 0.,, "Velocity of the top at factor 1, positive away from the bottom [m/s, or m per step with scaled masses]."))
@@ -25,10 +25,6 @@ public:
 		((bool, gripped, false, Attr::readonly, "The top has been taken hold of |yupdate|."))
 		((Real, seenVelocity, 0., Attr::hidden, "The velocity as set at the last step [m/s, or m per step]."))
 		((Real, drivenAt, 0., Attr::hidden, "Velocity that the top's nodes have [m/s, or m per step]."))
-		, /* ctor */
-		, .def("preload", &EndDisplacementController::preload, (boost::python::arg("share"), boost::python::arg("steps")),
-			"Take hold of all nodes of the unloaded specimen: that many steps take it along its elastic solution to this share of the strain at which the first contact point leaves its elastic branch.")
-		.def("release", &EndDisplacementController::release, "Release the nodes after those steps; the top goes on at the velocity.")
 	);
 	// clang-format on
 };

@@ -10,6 +10,12 @@ YADE_PLUGIN((LoadingController));
 
 LoadingController::~LoadingController() = default;
 
+void LoadingController::preload(Real, int) { refusePreload(); }
+
+void LoadingController::release() { refusePreload(); }
+
+void LoadingController::refusePreload() const { throw std::runtime_error(getClassName() + ": preload = asked for, must be left out: it is for driven ends"); }
+
 void LoadingController::renew(flexpm::Assembly& assembly, bool cracksCount)
 {
 	if (assembly.step < renewedAt + renewPeriod) return;

@@ -11,9 +11,12 @@ namespace yade {
 class LoadingController : public BoundaryController {
 public:
 	~LoadingController() override;
+	/// @throws std::runtime_error  unless it moves the ends of a specimen
+	virtual void preload(Real share, int steps);
+	virtual void release();
 
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS(LoadingController, BoundaryController,
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LoadingController, BoundaryController,
 		"Base of engines that load a specimen at a velocity. Not to be used directly.",
 		((Real, velocityFactor, 1.,, "Present velocity over the velocity that is set, which is the slowest; :yref:`LoadingRateController` and :yref:`ServoController` write it, the latter below 0 where the ends go back [-] |yupdate|."))
 		((bool, undampedLoading, false,, "Start all grains with the velocities of the elastic solution, let these follow the velocity of the loading, and let damping act only on what grains move beyond them."))
@@ -22,10 +25,17 @@ public:
 		((int, seenSoftened, 0, Attr::hidden, "Points that had softened then [-]."))
 		((int, seenSliding, 0, Attr::hidden, "Contacts of joints that slid then [-]."))
 		((Real, seenFactor, 0., Attr::hidden, "The factor at the last step; 0 before the first [-]."))
+		((vector<int>, heldBefore,, Attr::hidden, "Components that were held before preload() took hold of all [-]."))
+		, /* ctor */
+		, .def("preload", &LoadingController::preload, (boost::python::arg("share"), boost::python::arg("steps")),
+			"Take hold of all nodes between driven ends: that many steps take the specimen along its elastic solution to this share of the load at which the first contact point leaves its elastic branch.")
+		.def("release", &LoadingController::release, "Release the nodes after those steps; the top goes on at the velocity.")
 	);
 	// clang-format on
 
 protected:
+	[[noreturn]] void refusePreload() const;
+
 	/// Find the motion that the loading gives anew, at the velocity that ends or plates have, where joints slide and, if they
 	/// count, points have cracked.
 	void renew(flexpm::Assembly& assembly, bool cracksCount);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/SolidLoadingController.hpp>
 
+#include <flexpm/kernel/laboratory/preload.hpp>
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
@@ -10,29 +11,65 @@ YADE_PLUGIN((SolidLoadingController));
 
 SolidLoadingController::~SolidLoadingController() = default;
 
+flexpm::SolidState& SolidLoadingController::stateOf(GrainSolver& solver)
+{
+	auto* state = solver.solid();
+	if (!state) throw std::runtime_error("SolidLoadingController: specimen = 2D, must be 3D; take PlateController");
+	return *state;
+}
+
+bool SolidLoadingController::movesTop() const { return plates.empty() && nodeSets.empty(); }
+
+flexpm::SolidDrive SolidLoadingController::driveOf(const flexpm::SolidState& state) const
+{
+	if (movesTop()) return flexpm::drive_of_top(state);
+	return { plates, { direction[0], direction[1], direction[2] }, 1, nodeSets, backSets, turns };
+}
+
+flexpm::SolidField SolidLoadingController::fieldOf(const flexpm::SolidState& state, int threads) const
+{
+	return movesTop() ? flexpm::elastic_field(state, threads) : flexpm::elastic_field(state, driveOf(state), threads);
+}
+
 void SolidLoadingController::action()
 {
 	const auto solver = GrainSolver::ofScene(*scene);
-	auto*      state  = solver->solid();
-	if (!state) throw std::runtime_error("SolidLoadingController: specimen = 2D, must be 3D; take PlateController");
+	auto&      state  = stateOf(*solver);
 	const Real before = drivenAt;
 	follow(velocity, seenVelocity, drivenAt);
-	if (gripped && drivenAt == before) return;
-	const flexpm::SolidDrive parts { plates, { direction[0], direction[1], direction[2] }, 1, nodeSets, backSets, turns };
-	const auto               drive = parts.moves_top() ? flexpm::drive_of_top(*state) : parts;
-	if (gripped) return flexpm::go_on(*state, drive, drivenAt, scene->dt);
+	if (preloaded || (gripped && drivenAt == before)) return;
+	const auto drive = driveOf(state);
+	if (gripped) return flexpm::go_on(state, drive, drivenAt, scene->dt);
 	if (!solver->scaled) {
-		flexpm::set_off(*state, drive, drivenAt, scene->dt);
+		flexpm::set_off(state, drive, drivenAt, scene->dt);
 		gripped = true;
 		return;
 	}
-	const int  threads = solver->threads();
-	const auto field   = parts.moves_top() ? flexpm::elastic_field(*state, threads) : flexpm::elastic_field(*state, drive, threads);
-	if (state->step > 0)
-		flexpm::take_over(*state, drive, field, drivenAt, undampedLoading, scene->dt);
+	const auto field = fieldOf(state, solver->threads());
+	if (state.step > 0)
+		flexpm::take_over(state, drive, field, drivenAt, undampedLoading, scene->dt);
 	else
-		flexpm::start(*state, drive, field, 0, drivenAt, undampedLoading, scene->dt);
+		flexpm::start(state, drive, field, 0, drivenAt, undampedLoading, scene->dt);
 	gripped = true;
+}
+
+void SolidLoadingController::preload(Real share, int steps)
+{
+	if (!movesTop()) refusePreload();
+	const auto world  = Omega::instance().getScene();
+	const auto solver = GrainSolver::ofScene(*world);
+	auto&      state  = stateOf(*solver);
+	follow(velocity, seenVelocity, drivenAt);
+	heldBefore = flexpm::preload(state, driveOf(state), fieldOf(state, solver->threads()), drivenAt < 0 ? -1 : 1, { share, steps, world->dt });
+	gripped = preloaded = true;
+}
+
+void SolidLoadingController::release()
+{
+	const auto world = Omega::instance().getScene();
+	auto&      state = stateOf(*GrainSolver::ofScene(*world));
+	flexpm::release_preload(state, driveOf(state), heldBefore, drivenAt, world->dt, undampedLoading);
+	preloaded = false;
 }
 
 } // namespace yade

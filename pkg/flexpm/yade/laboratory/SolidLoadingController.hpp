@@ -2,15 +2,20 @@
 /// @file  Driven ends of a solid, whose grains deform or are rigid, paper Sec. 4.1 in space.
 #pragma once
 
+#include <flexpm/kernel/statics/solid_field.hpp>
 #include <flexpm/yade/bindings/saved_class.hpp>
 #include <flexpm/yade/laboratory/LoadingController.hpp>
 
 namespace yade {
 
+class GrainSolver;
+
 class SolidLoadingController : public LoadingController {
 public:
 	~SolidLoadingController() override;
 	void action() override;
+	void preload(Real share, int steps) override;
+	void release() override;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(SolidLoadingController, LoadingController,
@@ -23,10 +28,18 @@ public:
 		((Vector3r, direction, Vector3r::UnitZ(),, "Direction of these, or the axis about which the node sets turn, a unit vector [-]."))
 		((bool, turns, false,, "The node sets turn about their places, at the velocity as a spin [rad/s, or rad per step]."))
 		((bool, gripped, false, Attr::readonly, "It has begun to move |yupdate|."))
+		((bool, preloaded, false, Attr::hidden, "All grains are held and moved along the elastic solution."))
 		((Real, seenVelocity, 0., Attr::hidden, "The velocity as set at the last step [m/s, or m per step]."))
 		((Real, drivenAt, 0., Attr::hidden, "Velocity that the top has [m/s, or m per step]."))
 	);
 	// clang-format on
+
+private:
+	static flexpm::SolidState& stateOf(GrainSolver& solver);
+	bool                       movesTop() const;
+	flexpm::SolidDrive         driveOf(const flexpm::SolidState& state) const;
+	/// Its elastic solution.
+	flexpm::SolidField fieldOf(const flexpm::SolidState& state, int threads) const;
 };
 REGISTER_SAVED(SolidLoadingController);
 

@@ -29,18 +29,18 @@ KIND = TestKind(
     variants={
         "rectangle": Variant(
             rates=_RATES,
+            static_models=("flexible",),
+            static_first=True,
             results={
                 **dict.fromkeys(("flexible", "rigid"), 5),
                 **dict.fromkeys(("inner", "inner-un"), 3),
                 **dict.fromkeys(("jcfpm", "cohfrict"), 2),
             },
         ),
-        "box": Variant(_SOLID_RATES),
-        "cylinder": Variant(_SOLID_RATES),
+        "box": Variant(_SOLID_RATES, static_models=("flexible", "rigid")),
+        "cylinder": Variant(_SOLID_RATES, static_models=("flexible", "rigid")),
     },
     confine_hint="; use biaxial",
-    static_models=("flexible",),
-    static_first=True,
     rig=Rig.ENDS,
     pulls=True,
     falls_freely=True,

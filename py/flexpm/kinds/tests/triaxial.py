@@ -39,8 +39,8 @@ KIND = TestKind(
     about="compression of a cylinder or a box under the confinement, which acts all around first; "
     "of a box under two, which is true triaxial",
     variants={
-        "cylinder": Variant(_RATES),
-        "box": Variant(_RATES),
+        "cylinder": Variant(_RATES, static_models=("flexible", "rigid")),
+        "box": Variant(_RATES, static_models=("flexible", "rigid")),
     },
     other_hint="; biaxial is the test of the plane",
     confined=True,

@@ -32,18 +32,18 @@ KIND = TestKind(
     variants={
         "rectangle": Variant(
             rates=_RATES,
+            static_models=("flexible",),
             results={
                 **{"flexible": 5, "rigid": 6, "inner": 4, "inner-un": 3},
                 **dict.fromkeys(("jcfpm", "cohfrict"), 2),
             },
         ),
-        "box": Variant(_SOLID_RATES),
-        "cylinder": Variant(_SOLID_RATES),
+        "box": Variant(_SOLID_RATES, static_models=("flexible", "rigid")),
+        "cylinder": Variant(_SOLID_RATES, static_models=("flexible", "rigid")),
     },
     options=(control_of(*_CONTROLS), END_FRICTION),
     settle=end_friction_of,
     confine_hint="; use biaxial",
-    static_models=("flexible",),
     controls=_CONTROLS,
     falls_freely=True,
     is_core=True,

@@ -74,6 +74,9 @@ class SolidDiscRig(EndRig):
         sizes = self.built.specimen.dimensions
         return wrapper.DiscFrame(diameter=sizes["diameter"], depth=sizes["depth"])
 
+    def _preloadable(self) -> wrapper.LoadingController:
+        self._refuse_preload()  # plates press into what they touch
+
     def _take_hold(self) -> wrapper.LoadingController:
         self._solid.holdDisc(self._radius)
         self.built.set_masses()

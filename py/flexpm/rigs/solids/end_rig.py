@@ -141,6 +141,9 @@ class EndRig(SolidGrains):
         self.built.add_engines(before=(ends,))
         return ends
 
+    def _preloadable(self) -> wrapper.LoadingController:
+        return self.built.required(wrapper.SolidLoadingController)
+
     def _move(self, velocity: float, factor: float) -> None:
         ends = self.built.required(wrapper.SolidLoadingController)
         ends.velocity, ends.velocityFactor = velocity, factor
