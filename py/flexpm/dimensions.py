@@ -87,7 +87,6 @@ FEATURES = {
         ("mesh", "--mesh"),
         "leave it out, the grains of a 3D specimen are meshed as fans",
     ),
-    "gravity": Feature("loads by gravity", 2, ("gravity", "--gravity"), "leave it out"),
     "inner": Feature(
         "inner particles", 2, ("model inner", "model inner-un"), "take flexible or rigid grains"
     ),

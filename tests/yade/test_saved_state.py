@@ -12,7 +12,7 @@ from flexpm import _plugin
 from flexpm._flexpm import saved_state as number_here
 
 #: Attributes of GrainSolver that scenes leave out.
-NOT_SAVED = {"stepsToCome", "diverged"}
+NOT_SAVED = {"stepsToCome", "diverged", "stopReason"}
 
 
 def test_what_scenes_hold_is_listed_with_its_number():

@@ -78,14 +78,20 @@ class Model:
     def set_masses(self) -> None:
         """Scale the masses, or set the real ones and their stable time step, before the first step.
 
-        Needed again after plates have been laid.
+        Needed again after plates have been laid or ends are held.
         """
         if self.dynamic:
             yade.O.dt = self.solver.useRealMasses()
-            self.solver.gravity = (0.0, -self.gravity, 0.0)
+            self.pull_down()
         else:
             yade.O.dt = 1.0
             self.solver.scaleMasses()
+
+    def pull_down(self, part: float = 1.0) -> None:
+        """Let a part of the weight act [-], against the last axis."""
+        pull = -part * self.gravity
+        solid = is_solid(self.specimen.kind)
+        self.solver.gravity = (0.0, 0.0, pull) if solid else (0.0, pull, 0.0)
 
     def run(self, steps: int) -> None:
         """Advance by `steps`.
@@ -201,14 +207,6 @@ class Model:
 class SolidModel(Model):
     """A solid in YADE's scene. What rigs ask of a specimen a solid has, too."""
 
-    def set_masses(self) -> None:
-        """Scale the masses, or set real ones, before the first step and after ends are held."""
-        if self.dynamic:
-            yade.O.dt = self.solver.useRealMasses()
-        else:
-            yade.O.dt = 1.0
-            self.solver.scaleMasses()
-
     @property
     def largest_overlap(self) -> float | None:
         """Deepest overlap of grains over the mean diameter [-]."""
@@ -224,14 +222,20 @@ class SolidModel(Model):
 
 
 def _build_solid(
-    specimen: SolidSpecimen, chosen: Material, model: str, damping: float, *, dynamic: bool
+    specimen: SolidSpecimen,
+    chosen: Material,
+    model: str,
+    damping: float,
+    *,
+    dynamic: bool,
+    gravity: float,
 ) -> Model:
     solver = solver_of(specimen, chosen, model)
     solver.damping = damping
     engines = _in_scene(solver, specimen.mean_diameter)
     kinds = mineral_map.minerals_of(specimen, chosen)
     built = SolidModel(
-        *(cast(Specimen, specimen), chosen, model, solver, engines, dynamic), minerals=kinds
+        *(cast(Specimen, specimen), chosen, model, solver, engines, dynamic, kinds, gravity)
     )
     built.set_masses()
     return built
@@ -293,7 +297,7 @@ def build(
     threads = require_threads("build: threads", threads)
     require_specimen("build", specimen)
     if is_solid(specimen.kind):
-        _refuse_plane("build", points=points, mesh=mesh, gravity=gravity)
+        _refuse_plane("build", points=points, mesh=mesh)
         if dynamic and model in SPHERE_MODELS:
             raise InputError(
                 f"build: dynamic = True, must be False for {model} of a solid; take flexible or "
@@ -313,7 +317,7 @@ def build(
     _refuse_second()
     if isinstance(specimen, SolidSpecimen):
         chosen = load_material(material, model, solid=True)
-        built = _build_solid(specimen, chosen, model, damping, dynamic=dynamic)
+        built = _build_solid(specimen, chosen, model, damping, dynamic=dynamic, gravity=gravity)
         built.set_threads(threads)
         return built
     grains = grains_of(specimen, model, points, mesh)
@@ -384,10 +388,10 @@ def _refuse_second() -> None:
 
 def _refuse_plane(call: str, **given: float | str) -> None:
     """Refuse options of 2D specimens for a 3D one."""
-    usual = {"points": POINTS[-1], "mesh": MESHES[0], "gravity": 0.0}
+    usual = {"points": POINTS[-1], "mesh": MESHES[0]}
     for name, value in given.items():
         if value != usual[name]:
-            shown = ", ".join(str(one or 0) for one in given.values())
+            shown = ", ".join(map(str, given.values()))
             asked = f"{call}: {', '.join(given)} = {shown}, must be left out for a solid"
             raise refused(asked, name)
 

@@ -478,12 +478,18 @@ def of_set_point(measure: str, missed: float) -> list[str]:
     ]
 
 
-def of_divergence(step: int) -> str:
-    """What is left of a test in which numbers are not finite or faces have turned over."""
-    return (
-        f"the record ends before step {step}, at which a number was not finite any more or faces "
-        "of a solid had turned over; lower the rate or check what is driven"
+def of_divergence(step: int, reason: str = "") -> str:
+    """What is left of a test that could not go on.
+
+    Args:
+        step: The last one.
+        reason: What has stopped it, if that is known.
+    """
+    found = reason or (
+        "a number was not finite any more or faces of a solid had turned over; lower the rate or "
+        "check what is driven"
     )
+    return f"the record ends before step {step}: {found}"
 
 
 def of_lost_gauge(name: str) -> str:

@@ -99,6 +99,10 @@ class GrainRig(TestRig):
         return self.built.solver.diverged
 
     @property
+    def _stop_reason(self) -> str:
+        return self.built.solver.stopReason
+
+    @property
     def may_fail_at_once(self) -> bool:
         """Whether a joint may soften as one, so that no crack tells it before. Deviation D58."""
         return self.built.specimen.edge_joints is not None

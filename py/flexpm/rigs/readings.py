@@ -180,7 +180,7 @@ class RigReadings(ABC):
         error = measures.energy_error(record, self.initial_energy)
         mismatch = measures.median_end_mismatch(record)
         specimen = self.built.specimen
-        lines = [doubts.of_divergence(yade.O.iter)] if self.diverged else []
+        lines = [doubts.of_divergence(yade.O.iter, self._stop_reason)] if self.diverged else []
         plane = {} if self.solid else {"thickness": specimen.thickness}
         lines += doubts.of_lengths({**specimen.extent, **plane}, (specimen.mean_diameter,))
         return lines + doubts.of_result("", error, mismatch, None)
@@ -194,6 +194,11 @@ class RigReadings(ABC):
     @abstractmethod
     def diverged(self) -> bool:
         """Whether a number is not finite any more."""
+
+    @property
+    def _stop_reason(self) -> str:
+        """What has stopped a simulation that diverged; empty if that is not known."""
+        return ""
 
     @property
     @abstractmethod

@@ -298,6 +298,7 @@ class GrainSolver(Engine):
     stepsToCome: int
     bodyIds: list[int]
     diverged: bool
+    stopReason: str
     def mirrorBodies(self) -> None: ...
     @property
     def gravity(self) -> Vector3: ...

@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/state_check.hpp>
+#include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/forces/sides.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/measure/grain_parting.hpp>
@@ -15,6 +16,7 @@
 
 #include "support/balance.hpp"
 #include "support/driven.hpp"
+#include "support/solid_states.hpp"
 
 using namespace driven;
 using flexpm::GrainPair;
@@ -192,4 +194,27 @@ TEST_CASE("Grains part by what the distances between those once bonded have grow
     flexpm::check_state(a);
     a.grains.loose.pop_back();
     CHECK_THROWS_WITH(flexpm::check_state(a), Catch::Contains("values of grains"));
+}
+
+TEST_CASE("A solid from which gravity pulls a grain is not stepped any more")
+{
+    for (bool rigid : { false, true }) {
+        CAPTURE(rigid);
+        flexpm::SolidState s = flexpm::make_solid(solid_samples::brick(1, 1, 3),
+            flexpm::Solid::box(size, size, 3.0 * size),
+            solid_states::granite(flexpm::FacePointRule::corners_and_inner, rigid));
+        s.grains.prescribed[s.grains.component(s.grains.centre(2), 2)] = 1;
+        const int low = s.contacts.pairs[0][0] == 0 ? 0 : 1;
+        for (int p = 0; p < s.contacts.points_of(low); ++p)
+            s.contacts.set_crack(low, p, { 0, flexpm::tensile_crack, {}, 0.0 });
+        flexpm::find_loose(s);
+        CHECK(s.grains.loose == Loose { 0, 0, 0 });  // neither pressure nor weight
+        flexpm::set_gravity(s, { 0.0, 0.0, -9.81 });
+        flexpm::find_loose(s);
+        CHECK(s.grains.loose == Loose { 1, 0, 0 });
+        CHECK_THROWS_WITH(flexpm::require_joined(s),
+            Catch::Contains("loose under gravity = 1, the first at (0.0015, 0.0015, 0.0015) m"));
+        flexpm::set_gravity(s, {});
+        CHECK_NOTHROW(flexpm::require_joined(s));
+    }
 }

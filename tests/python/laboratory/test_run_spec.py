@@ -112,7 +112,7 @@ def specs(draw) -> RunSpec:
         max_strain=None if "max_strain" in unused else draw(st.none() | POSITIVE),
         stop_ratio=0.5 if "stop_ratio" in unused else draw(st.floats(0.01, LARGEST_STOP_RATIO)),
         dynamic=dynamic,
-        gravity=draw(st.floats(0.0, 100.0)) if grains and dynamic and loaded and not solid else 0.0,
+        gravity=draw(st.floats(0.0, 100.0)) if grains and dynamic and loaded else 0.0,
         start=draw(st.sampled_from(starts)),
         loading=draw(st.sampled_from(["", *loadings])),
         interaction_range=draw(spheres),

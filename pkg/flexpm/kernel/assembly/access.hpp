@@ -89,13 +89,16 @@ inline Resultant resultant_on(const Grains& grains, int grain)
 {
     const int centre = grains.centre(grain);
     const Vector middle = grains.position(centre);
-    // in 3D the centre of a rigid grain holds the sum of the others
+    // in 3D the centre of a rigid grain holds the sum, with its weight
     const bool is_sum = grains.layout.dimension == 3 && grains.is_rigid(grain);
     Resultant sum;
     for (int n = 0; n < grains.nodes_of(grain); ++n) {
         const int node = grains.node(grain, n);
-        if (is_sum && node == centre) continue;
         const Vector force = grains.vector(grains.force, node);
+        if (is_sum && node == centre) {
+            sum.force = force;
+            continue;
+        }
         sum.force = sum.force + force;
         sum.moment = sum.moment + cross(grains.position(node) - middle, force);
     }

@@ -18,7 +18,6 @@ struct Assembly : BondedState {
     Facets facets;
     std::vector<HeldEdge> held_edges;
     double thickness = 0.0;  ///< out of plane [m]
-    Vector gravity;          ///< acceleration of all masses [m/s^2], by set_gravity()
 
     // derived
     StepPlan plan;
@@ -32,8 +31,6 @@ struct Assembly : BondedState {
     {
         return grains.is_rigid(grain) && grains.spin_prescribed[grains.slot[grain]];
     }
-
-    bool has_gravity() const { return gravity.x != 0.0 || gravity.y != 0.0 || gravity.z != 0.0; }
 
     /// What the plane leaves out: area of a facet and volume of a section, from what is seen of
     /// them. The order of products decides the last digit: a factor that comes first goes in with
@@ -50,9 +47,6 @@ struct Assembly : BondedState {
         visit("facets", s.facets);
         visit("held_edges", s.held_edges);
         visit("thickness", s.thickness);
-        visit("gravity_x", s.gravity.x);
-        visit("gravity_y", s.gravity.y);
-        visit("gravity_z", s.gravity.z);
     }
 };
 

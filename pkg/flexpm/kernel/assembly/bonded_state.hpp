@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  The part of a specimen's saved state that does not depend on the dimension: grains, the
-/// parts that hold and load them, the motion of the loading, and the energy balance. The contacts
+/// parts that hold and load them, the motion of the loading, gravity, and the energy balance. The contacts
 /// and the boundary are in Assembly (2D) and SolidState (3D), which derive from it. SI units,
 /// tension positive.
 #pragma once
@@ -23,6 +23,9 @@ struct BondedState {
     LoadingMotion loading;
     SteadyMotion steady;
     std::int64_t step = 0;  ///< steps done
+    Vector gravity;         ///< acceleration of all masses [m/s^2], by set_gravity()
+
+    bool has_gravity() const { return gravity.x != 0.0 || gravity.y != 0.0 || gravity.z != 0.0; }
 
     /// Motion of the grains that damping does not act on.
     const GrainMotion& undamped() const
@@ -40,6 +43,9 @@ struct BondedState {
         visit("loading", s.loading);
         visit("steady", s.steady);
         visit("step", s.step);
+        visit("gravity_x", s.gravity.x);
+        visit("gravity_y", s.gravity.y);
+        visit("gravity_z", s.gravity.z);
     }
 };
 

@@ -16,38 +16,41 @@ double mass_at(const Grains& grains, int scalar)
 
 }  // namespace
 
-void set_gravity(Assembly& a, Vector acceleration)
+void set_gravity(BondedState& s, Vector acceleration)
 {
     check_finite("gravity", acceleration.x, "m/s^2");
     check_finite("gravity", acceleration.y, "m/s^2");
     check_finite("gravity", acceleration.z, "m/s^2");
-    const double before = potential_energy(a);
-    a.gravity = acceleration;
-    a.ledger.initial += potential_energy(a) - before;
+    const double before = potential_energy(s);
+    s.gravity = acceleration;
+    s.ledger.initial += potential_energy(s) - before;
 }
 
-void add_weight(Assembly& a, int block)
+void add_weight(BondedState& s, int block)
 {
-    const int first = a.grains.block_nodes[block];
-    for (int n = 0; n < a.grains.group(block).nodes; ++n) {
-        for (int l = 0; l < lanes; ++l) {
-            const int i = first + node_stride * n + l;
-            const double mass = mass_at(a.grains, scalar_index(i));
-            a.grains.force[i] += mass * a.gravity.x;
-            a.grains.force[component(i, 1)] += mass * a.gravity.y;
+    Grains& grains = s.grains;
+    const Layout layout = grains.layout;
+    const double along[] = { s.gravity.x, s.gravity.y, s.gravity.z };
+    for (int n = 0; n < grains.group(block).nodes; ++n) {
+        for (int l = 0; l < layout.grains_per_block; ++l) {
+            const int node = grains.block_nodes[block] + layout.node_stride * n + l;
+            const double mass = mass_at(grains, layout.scalar_index(node));
+            for (int axis = 0; axis < layout.dimension; ++axis)
+                grains.force[layout.component(node, axis)] += mass * along[axis];
         }
     }
 }
 
-double potential_energy(const Assembly& a)
+double potential_energy(const BondedState& s)
 {
     double total = 0.0;
-    if (!a.has_gravity()) return total;  // most tests, at each measured step
-    for (int g = 0; g < a.grains.count; ++g) {
-        for (int n = 0; n < a.grains.nodes_of(g); ++n) {
-            const int i = a.grains.node(g, n);
-            total -= mass_at(a.grains, scalar_index(i))
-                * dot(a.gravity, vector_at(a.grains.displacement, i));
+    if (!s.has_gravity()) return total;  // most tests, at each measured step
+    const Grains& grains = s.grains;
+    for (int g = 0; g < grains.count; ++g) {
+        for (int n = 0; n < grains.nodes_of(g); ++n) {
+            const int i = grains.node(g, n);
+            total -= mass_at(grains, grains.scalar_index(i))
+                * dot(s.gravity, grains.vector(grains.displacement, i));
         }
     }
     return total;

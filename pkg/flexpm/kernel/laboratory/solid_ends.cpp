@@ -166,6 +166,7 @@ void start_ends(SolidState& s, const SolidField& field, double strain, double ve
 ElasticConstants constants_between_ends(SolidState s)
 {
     hold_ends(s, { true, false });
+    s.gravity = {};
     const SolidFrame frame = solid_frame(s, Sense::tension);
     start_ends(s, elastic_field(s), small_strain, 0.0, false, 1.0);
     const AxialObservation found = observe(s, frame);

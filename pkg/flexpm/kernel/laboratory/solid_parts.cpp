@@ -57,6 +57,7 @@ double mean_radius(const SolidState& s)
 SolidPartState moved_state(SolidState s, const PartGeometry& parts, double dt)
 {
     check_parts(s, parts);
+    s.gravity = {};  // the solution is that of the parts alone
     const SolidField field = elastic_field(s, drive_of(parts));
     SolidPartState found { std::move(s) };
     found.softening = elastic_strain(found.state, field, 1.0);  // a way: the field is that of 1 m
@@ -145,6 +146,7 @@ SolidPartState pressed_part_state(
     }
     const SolidField field = elastic_field(s, drive);
     SolidPartState found { s };
+    found.state.gravity = {};
     hold_touching(found.state);
     double farthest = 0.0;
     for (const Vector& way : field.ways)

@@ -258,7 +258,7 @@ template <class State> Energies energies(const State& s)
         e.drag += set.drag_work;
     }
     e.damping = damped - e.drag;
-    if constexpr (is_plane<State>) e.potential = potential_energy(s);
+    e.potential = potential_energy(s);
     return e;
 }
 

@@ -22,7 +22,7 @@ struct Energies {
     /// Taken from that motion, of the loading and of the descent (D30, D55): below 0 what damping
     /// has given to it.
     double drag = 0.0;
-    double potential = 0.0;      ///< in the field of gravity (2D), 0 at the reference
+    double potential = 0.0;      ///< in the field of gravity, 0 at the reference
     double erased = 0.0;         ///< has left with grains and bonds that scripts have erased
     double boundary_work = 0.0;  ///< of prescribed velocities, plates and edge pressure
     double initial = 0.0;

@@ -52,7 +52,7 @@ FLEXPM_INLINE void place_nodes(
     }
 }
 
-/// Sum of the forces on all nodes but the centre, and their moment about it: resultant_on().
+/// Sum of the forces on all nodes but the centre, and their moment about it.
 FLEXPM_INLINE void sum_forces(const BodyNodes& b, Resultant& to)
 {
     constexpr int stride = space_layout.node_stride;
@@ -155,14 +155,22 @@ void move_body(SolidState& s, int block, double dt)
     place_body(s, grain, way);
 }
 
-void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums)
+Vector sum_body_forces(SolidState& s, int block)
 {
     Grains& grains = s.grains;
     const int grain = grains.in_slot[block * lanes], centre = grains.centre(grain);
     Resultant on;
     variant_of<sum_forces>()(body_nodes(s, grain), on);
-    const auto [force, moment] = on;
-    set_space_vector(grains.force, centre, force);
+    if (s.has_gravity()) on.force = on.force + space_vector(grains.force, centre);
+    set_space_vector(grains.force, centre, on.force);
+    return on.moment;
+}
+
+void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums)
+{
+    Grains& grains = s.grains;
+    const int grain = grains.in_slot[block * lanes], centre = grains.centre(grain);
+    const Vector moment = sum_body_forces(s, block);
     const double inverse_mass = grains.inverse_mass[grains.scalar_index(centre)];
     const Array<double>& undamped = s.undamped().velocity;
     for (int axis = 0; axis < grains.layout.dimension; ++axis) {

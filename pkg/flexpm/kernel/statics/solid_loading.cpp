@@ -139,7 +139,8 @@ void begin_balance(SolidState& s)
     std::fill(s.ledger.kinetic.begin(), s.ledger.kinetic.end(), 0.0);
     s.ledger.kinetic[0] = kinetic_of_velocities(s);
     const Energies there = energies(s);
-    s.ledger.initial = there.elastic + there.damage + there.friction + there.kinetic;
+    s.ledger.initial =
+        there.elastic + there.damage + there.friction + there.kinetic + there.potential;
 }
 
 }  // namespace flexpm

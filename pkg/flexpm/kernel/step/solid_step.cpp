@@ -5,6 +5,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/core/rows_of_four.hpp>
 #include <flexpm/kernel/core/thread_team.hpp>
+#include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/forces/solid_pressure.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/soft_plate.hpp>
@@ -85,7 +86,7 @@ FLEXPM_INLINE void add_parcels(
         row_of_four(force + p->node) += row_of_four(parcels + p->place);
 }
 
-/// Complete the forces of contacts, plates and pressures on a block of grains.
+/// Complete the forces of contacts, plates, pressures and gravity on a block of grains.
 void sum_outer_forces(SolidState& s, int block)
 {
     const SolidPlan& plan = s.plan;
@@ -96,6 +97,7 @@ void sum_outer_forces(SolidState& s, int block)
     }
     if (!plan.first_press.empty()) add_plate_forces(s, block);
     if (!plan.first_pressed.empty()) add_pressure_forces(s, block);
+    if (s.has_gravity()) add_weight(s, block);
 }
 
 /// Sum the forces on a block of grains and integrate its velocities.
@@ -157,7 +159,10 @@ void find_forces(SolidState& s)
     }
     for (int block = 0; block < s.grains.blocks(); ++block) {
         sum_outer_forces(s, block);
-        if (!s.grains.group(block).rigid) add_tetrahedron_forces(s, block);
+        if (s.grains.group(block).rigid)
+            sum_body_forces(s, block);
+        else
+            add_tetrahedron_forces(s, block);
     }
     sum_plates(s, 0.0, 0.0);
 }

@@ -3,10 +3,12 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/loose_groups.hpp>
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 namespace flexpm {
@@ -33,6 +35,10 @@ template <class State> bool presses_any(const State& s)
         || loads_any(s.plates);
 }
 
+/// Whether anything moves what has come loose as it should not.
+bool moves_loose(const Assembly& a) { return presses_any(a); }
+bool moves_loose(const SolidState& s) { return presses_any(s) || s.has_gravity(); }
+
 template <class State> bool is_held(const State& s, int grain)
 {
     bool held = s.is_spin_held(grain);
@@ -54,12 +60,25 @@ template <class State> std::vector<std::uint8_t> held_grains(const State& s)
 template <class State> void find_loose(State& s)
 {
     std::fill(s.grains.loose.begin(), s.grains.loose.end(), 0);
-    if (!presses_any(s)) return;
+    if (!moves_loose(s)) return;
     Groups groups(s.grains.count);
     for (int c = 0; c < s.contacts.count; ++c) {
         if (joins(s, c)) groups.join(s.contacts.pairs[c][0], s.contacts.pairs[c][1]);
     }
     mark_loose(s.grains, groups, held_grains(s));
+}
+
+void require_joined(const SolidState& s)
+{
+    const auto& loose = s.grains.loose;
+    const auto first = std::find(loose.begin(), loose.end(), 1);
+    if (!s.has_gravity() || first == loose.end()) return;
+    const int grain = static_cast<int>(first - loose.begin());
+    fail("step " + std::to_string(s.step) + ": grains that have come loose under gravity",
+        std::to_string(std::count(first, loose.end(), 1)) + ", the first at "
+            + place(s.grains.position(s.grains.centre(grain))),
+        "must be 0 in 3D, where grains that meet anew pass through each other; load less, or take "
+        "a 2D specimen");
 }
 
 template void find_loose(Assembly& s);

@@ -61,7 +61,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::RigidBody& part, unsigned) { archiveMembers(archive, part); }
 
 	/// Version of what SolidState lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned solidVersion = 5;
+	constexpr unsigned solidVersion = 6;
 
 	/// Call flexpm::prepare_step() after loading.
 	template <class Archive> void serialize(Archive& archive, flexpm::SolidState& solid, unsigned version)

@@ -49,9 +49,13 @@ void GrainSolver::takeStep()
 void GrainSolver::takeSolidStep()
 {
 	try {
+		if (stepsDone() % checkPeriod == 0) {
+			flexpm::find_loose(space);
+			flexpm::require_joined(space);
+		}
 		flexpm::step(space, stepOptions());
-	} catch (const std::runtime_error&) { // of faces that have turned over: the record up to here is good
-		diverged = true;
+	} catch (const std::runtime_error& error) { // of faces that have turned over or loose grains: the record up to here is good
+		diverge(error.what());
 		throw;
 	}
 }
@@ -72,7 +76,6 @@ void GrainSolver::action()
 	const auto due = [this](int period) { return stepsDone() % period == 0; };
 	if (due(checkPeriod)) requireOwnScene();
 	if (solid()) {
-		if (due(checkPeriod)) flexpm::find_loose(space);
 		if (due(checkPeriod) || destroyedContacts() != seenDestroyed) removeErased();
 		takeSolidStep();
 	} else {
@@ -105,11 +108,20 @@ namespace {
 
 } // namespace
 
+void GrainSolver::diverge(const string& reason)
+{
+	diverged   = true;
+	stopReason = reason;
+}
+
 void GrainSolver::check()
 {
 	const std::string bad = onState([](const auto& state) { return flexpm::find_bad_number(state); });
-	diverged              = !bad.empty();
-	if (diverged) throw std::runtime_error(getClassName() + ": " + bad);
+	diverged              = false;
+	if (!bad.empty()) {
+		diverge(bad);
+		throw std::runtime_error(getClassName() + ": " + bad);
+	}
 	removeErased(); // a script that keeps a handle delays its destruction
 	findStates();   // a script may have replaced one
 	// the collider watches centres only, when NewtonIntegrator runs, which grains do not need

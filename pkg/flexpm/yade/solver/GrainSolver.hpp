@@ -164,7 +164,8 @@ public:
 		((int, stepsToCome, 0, Attr::noSave, "Steps of O.step() that a loop has still to do: it stops after the last one [-] |yupdate|."))
 		((bool, bondsShown, false, Attr::noSave | Attr::hidden, "The bonds' members hold numbers."))
 		((bool, scaled, true, Attr::readonly, "Masses are scaled to the time step; they rise when new contacts need it."))
-		((bool, diverged, false, Attr::readonly | Attr::noSave, "A number was not finite any more at a check, or faces of a solid had turned over in a step, which has stopped the simulation |yupdate|."))
+		((bool, diverged, false, Attr::readonly | Attr::noSave, "A number was not finite any more at a check, faces of a solid had turned over in a step, or gravity had pulled a grain of a solid loose, which has stopped the simulation |yupdate|."))
+		((string, stopReason, "", Attr::readonly | Attr::noSave, "What has stopped it then, in one line |yupdate|."))
 		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last look for erased bonds."))
 		, /* ctor */
 		, .def("assemble", &GrainSolver::assemble, (py::arg("input"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("joints") = py::list()),
@@ -221,7 +222,7 @@ public:
 			"Keep a side of the outline from moving along the axes named: nodes of deformable grains; of rigid grains the centres across the side, and the edges or the middles of the faces along it. Sides of a solid: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig takes the ends, make plane strain of a box.")
 		.def("addWall", After<&GrainSolver::requirePlane, &GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
 			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain may come to touch, and return its number. Scale the masses afterwards.")
-		.add_property("gravity", After<&GrainSolver::requirePlane, &GrainSolver::gravity>::call, After<&GrainSolver::requirePlane, &GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2].")
+		.add_property("gravity", After<&GrainSolver::requireGrains, &GrainSolver::gravity>::call, After<&GrainSolver::requireGrains, &GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2]; z in 3D alone. A solid from which it pulls a grain loose is not stepped any more.")
 		.def("plates", After<&GrainSolver::requireGrains, &GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], friction [-], whether it is bonded and pressed, place of its face [m], work that it has done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
 		.def("mirrorBodies", After<&GrainSolver::requireGrains, &GrainSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is: states, bonds, forces.")
 		.def("resetEnergyBalance", After<&GrainSolver::requireGrains, &GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one. Of a solid before the first step alone.")
@@ -258,6 +259,7 @@ private:
 	flexpm::StepOptions                 stepOptions() const;
 	void                                trackEnergies();
 	void                                check();
+	void                                diverge(const string& reason);
 	void                                mirrorAtStop();
 	void                                findStates();
 	void                                mirrorStates();

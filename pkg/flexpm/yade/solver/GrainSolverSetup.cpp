@@ -186,7 +186,7 @@ void GrainSolver::resetEnergyBalance()
 	flexpm::begin_balance(space);
 }
 
-Vector3r GrainSolver::gravity() const { return Vector3r(assembly.gravity.x, assembly.gravity.y, assembly.gravity.z); }
+Vector3r GrainSolver::gravity() const { return Vector3r(state().gravity.x, state().gravity.y, state().gravity.z); }
 
 void GrainSolver::setGravity(Vector3r acceleration)
 {
@@ -194,7 +194,7 @@ void GrainSolver::setGravity(Vector3r acceleration)
 		throw std::invalid_argument(
 		        "GrainSolver.gravity = " + std::to_string(acceleration.norm()) + " m/s^2, must be 0 with scaled masses; call useRealMasses() first");
 	}
-	flexpm::set_gravity(assembly, { acceleration[0], acceleration[1] });
+	flexpm::set_gravity(state(), { acceleration[0], acceleration[1], solid() ? acceleration[2] : 0. });
 }
 
 } // namespace yade

@@ -33,8 +33,8 @@ STATUS = {
     "diverged": Status(
         "diverged",
         False,
-        "A number has become infinite, or faces of a solid have turned over; what came before is "
-        "in the curve.",
+        "A number has become infinite, faces of a solid have turned over, or gravity has pulled a "
+        "grain of a solid loose; a warning says which. What came before is in the curve.",
         "Lower the --rate if it was raised. Look for inputs in other units (Pa, m) and for "
         "stiffnesses that differ by many orders.",
     ),

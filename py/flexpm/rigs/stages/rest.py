@@ -136,20 +136,21 @@ class PartRest(PartStill):
         self._damp()
         swing = self._swing_steps()
         if rises:
-            self.built.solver.gravity = (0.0, 0.0, 0.0)
+            self.built.pull_down(0.0)
         return self._span_of(longest, RAMP_CROSSINGS + 0.2 * (longest - RAMP_CROSSINGS), swing)
 
     def _swing_steps(self) -> float:
         """Steps of a quarter of the slowest swing under the weight, 0 where nothing holds it: D74.
 
         Rayleigh's quotient of the static solution: what stands on few or soft contacts rocks far
-        more slowly than a wave crosses it. A column that swings along itself has the crossing.
+        more slowly than a wave crosses it. A column that swings along itself has the crossing,
+        and so has a solid, whose static solution is without weight.
         """
         try:
             ways = self.elastic().displacements
         except InputError:
             return 0.0
-        square, sag = np.mean(np.sum(ways**2, axis=1)), -np.mean(ways[:, 1])
+        square, sag = np.mean(np.sum(ways**2, axis=1)), -np.mean(ways[:, -1])
         if not sag > 0.0:
             return 0.0
         return float(0.5 * math.pi * math.sqrt(square / (self.built.gravity * sag)) / yade.O.dt)
@@ -160,8 +161,7 @@ class PartRest(PartStill):
         steps = yade.O.iter - begun
         if begun == 0 and steps <= RAMP_CROSSINGS * crossing:
             if steps % max(crossing // MEASURED_A_CROSSING, 1) == 0:
-                part = _risen(steps / (RAMP_CROSSINGS * crossing))
-                self.built.solver.gravity = (0.0, -part * self.built.gravity, 0.0)
+                self.built.pull_down(_risen(steps / (RAMP_CROSSINGS * crossing)))
             return self.diverged
         looks = steps % crossing == 0 and steps > RAMP_CROSSINGS * crossing
         return self.diverged or (looks and self._bears_weight())
@@ -175,8 +175,8 @@ class PartRest(PartStill):
         """What the parts together fail to bear of the weight [-]; 0 where fluids press, too."""
         if self._force_of_fluids:
             return 0.0
-        x, y = np.sum([part.force for part in self._all_parts], axis=0)
-        return math.hypot(x, y - self.weight) / self.weight
+        *across, up = np.sum([part.force for part in self._all_parts], axis=0)
+        return math.hypot(*across, up - self.weight) / self.weight
 
 
 def _risen(part: float) -> float:

@@ -218,8 +218,8 @@ class PartStill(PartStatics, GrainRig):
             self.built.damping = float(tags[_DAMPING_TAG])
             tags[_DAMPING_TAG] = ""
             self.built.set_masses()
-        if self.built.gravity > 0.0:  # solids have none
-            self._solver.gravity = (0.0, -self.built.gravity, 0.0)
+        if self.built.gravity > 0.0:
+            self.built.pull_down()
 
     # What there is
 

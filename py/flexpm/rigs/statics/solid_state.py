@@ -69,7 +69,7 @@ class SolidPartStatics(PartStatics):
         way: float = 0.0,
         load: float | None = None,
     ) -> SolidElasticState:
-        """Where the unloaded solid would come to rest, if all of it stayed elastic.
+        """Where the unloaded solid would come to rest, if all of it stayed elastic and had no weight.
 
         Args:
             pressures: On parts [Pa]: they are free to move along their normals.
