@@ -21,13 +21,6 @@ namespace flexpm {
 
 namespace {
 
-/// Part of its stiffness that an open point keeps while others are looked at: it keeps what nothing
-/// touches yet in its place. The last solution is without.
-constexpr double open_share = 1e-6;
-
-/// Solutions that all points take over at once, which nearly always suffice.
-constexpr int most_plain_solutions = 20;
-
 /// Part of a way less for which a point sticks that is none [-].
 constexpr double no_change = 1e-4;
 

@@ -14,6 +14,13 @@ namespace flexpm {
 /// Gap over the largest displacement, or over a grain's radius, that is round-off [-].
 constexpr double no_gap = 1e-10;
 
+/// Part of its stiffness that an open point keeps while others are looked at: it keeps what nothing
+/// touches yet in its place. The last solution is without.
+constexpr double open_share = 1e-6;
+
+/// Solutions that all points take over at once, which nearly always suffice.
+constexpr int most_plain_solutions = 20;
+
 /// Whether a plate is pressed by nothing: it gives way to all that would push it.
 inline bool is_idle(const Plate& plate)
 {

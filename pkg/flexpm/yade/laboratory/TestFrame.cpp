@@ -6,6 +6,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/solid_pressure.hpp>
 #include <flexpm/kernel/laboratory/end_displacement.hpp>
+#include <flexpm/kernel/laboratory/one_sided_parts.hpp>
 #include <flexpm/kernel/laboratory/part_measures.hpp>
 #include <flexpm/kernel/laboratory/solid_beam.hpp>
 #include <flexpm/kernel/laboratory/solid_frame.hpp>
@@ -113,6 +114,7 @@ py::dict PartFrame::elasticState(vector<int> pressed, vector<Real> pressures, Re
 {
 	if (pressed.size() != pressures.size())
 		flexpm::refuse("pressures", Real(pressures.size()), "", "must be one for each plate that is pressed, " + std::to_string(pressed.size()));
+	if (GrainSolver::ofScene(*Omega::instance().getScene())->solid()) return solidState(pressed, pressures, way, load);
 	flexpm::ElasticLoading asked { {}, driven, drivenSets, backSets, { direction[0], direction[1] }, direction[2], way, {} };
 	for (std::size_t i = 0; i < pressed.size(); ++i)
 		asked.pressures.emplace_back(pressed[i], pressures[i]);
@@ -236,27 +238,29 @@ namespace {
 		d["snapshot"]  = GrainSolver::snapshotOf(found.state);
 		d["plates"]    = plates;
 		d["node_sets"] = sets;
-		d["way"]       = found.way;
-		d["load"]      = found.load;
 		return d;
 	}
 
 } // namespace
 
-py::dict PartFrame::solidState(vector<int> floating) const
+py::dict PartFrame::solidState(const vector<int>& pressed, const vector<Real>& pressures, Real way, const py::object& load) const
 {
-	return dictOf(flexpm::elastic_part_state(unloaded(floating), solidParts(), Omega::instance().getScene()->dt));
-}
-
-py::dict PartFrame::pressedState(vector<int> pressed, vector<Real> pressures) const
-{
-	if (pressed.size() != pressures.size())
-		flexpm::refuse("pressures", Real(pressures.size()), "", "must be one for each plate that is pressed, " + std::to_string(pressed.size()));
-	const auto                         state = unloaded(pressed);
-	std::vector<flexpm::PlatePressure> asked;
+	flexpm::SolidPartLoading asked { {}, way, optional(load) };
 	for (std::size_t i = 0; i < pressed.size(); ++i)
-		asked.push_back({ pressed[i], pressures[i] });
-	return dictOf(flexpm::pressed_part_state(state, solidParts(), asked));
+		asked.pressures.push_back({ pressed[i], pressures[i] });
+	const auto found = flexpm::find_elastic_state(unloaded(pressed), solidParts(), asked, Omega::instance().getScene()->dt);
+	py::list   shares;
+	for (const flexpm::SolidPartShare& one : found.shares) {
+		py::dict share  = dictOf(one.small);
+		share["factor"] = one.factor;
+		shares.append(share);
+	}
+	py::dict d;
+	d["shares"]    = shares;
+	d["way"]       = found.way;
+	d["load"]      = found.load;
+	d["solutions"] = found.solutions;
+	return d;
 }
 
 vector<string> PartFrame::columns() const

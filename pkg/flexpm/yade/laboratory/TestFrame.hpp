@@ -100,8 +100,6 @@ public:
 	std::optional<Measure>   measure(const string& column, const flexpm::Assembly& assembly, const flexpm::Array<double>& velocity) const override;
 	std::optional<Measure>   measure(const string& column, const flexpm::SolidState& solid, const flexpm::Array<double>& velocity) const override;
 	boost::python::dict      elasticState(vector<int> pressed, vector<Real> pressures, Real way, boost::python::object load) const;
-	boost::python::dict      solidState(vector<int> floating) const;
-	boost::python::dict      pressedState(vector<int> pressed, vector<Real> pressures) const;
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PartFrame, TestFrame,
@@ -121,17 +119,14 @@ public:
 		((vector<Real>, loadingScales,,, "Scales as the loading found the specimen, in the order of AxialRecorder.scales(); empty before it. Those of a broken one would be others."))
 		, /* ctor */
 		, .def("elasticState", &PartFrame::elasticState, (boost::python::arg("pressed"), boost::python::arg("pressures"), boost::python::arg("way"), boost::python::arg("load")),
-			"Where the scene's specimen would come to rest, if no contact broke further: with pressures [Pa] on the plates that are pressed, beside those that act now, and a way [m] or a load [N] (None: the way alone counts) of what is driven; of sets that turn an angle [rad] or a moment [N m]. The scene stays as it is. Returns the state as GrainSolver.snapshot() has it, forces and displacements of plates and node sets, way, load, the number of solutions, and the points that stick beyond their friction. In 2D.")
-		.def("solidState", &PartFrame::solidState, (boost::python::arg("floating")),
-			"In 3D: where the linear solution takes the scene's specimen, which no step has moved, for a way or angle of what is driven that is so small that all is linear. floating: plates that are free to move along their normals. Returns the state as GrainSolver.snapshot() has it, forces and displacements of plates, those of node sets with moments and angles, way and load.")
-		.def("pressedState", &PartFrame::pressedState, (boost::python::arg("pressed"), boost::python::arg("pressures")),
-			"The same under pressures on plates [Pa], where what is driven stays; the way is the part of them that acts [-].")
+			"Where the scene's specimen would come to rest, if no contact broke further: with pressures [Pa] on the plates that are pressed, beside those that act now, and a way [m] or a load [N] (None: the way alone counts) of what is driven; of sets that turn an angle [rad] or a moment [N m]. The scene stays as it is. Returns the state as GrainSolver.snapshot() has it, forces and displacements of plates and node sets, way, load, the number of solutions, and the points that stick beyond their friction. In 3D the scene's specimen must be unloaded; way, load and the number of solutions come with shares: small states, of which the whole has factor times what each changes.")
 	);
 	// clang-format on
 
 private:
 	flexpm::PartGeometry parts() const;
 	flexpm::PartGeometry solidParts() const;
+	boost::python::dict  solidState(const vector<int>& pressed, const vector<Real>& pressures, Real way, const boost::python::object& load) const;
 	flexpm::PartGeometry geometry(flexpm::Vector along, flexpm::Vector turn) const
 	{
 		return { driven, holding, along, area, length, drivenSets, backSets, holdingSets, turn };

@@ -28,12 +28,13 @@ class SolidElasticState(SolidSnapshot):
     """Where an unloaded solid between parts would come to rest, if all of it stayed elastic.
 
     It is a snapshot as any other: displacements, stresses and sections grow in proportion with the
-    way. What touches a plate stays with it, pulled or pressed; smooth plates let it slide, those
-    with friction hold it (deviation D101).
+    loading. Plates that are not bonded press alone: their points open and close until all agree. Smooth
+    plates let what they press slide, those with friction hold it (deviation D101).
     """
 
     way: float = 0.0  #: of the driven parts, or a crosshead, along the loading [m, or rad]
     load: float = 0.0  #: of the driven parts on the specimen, along the loading [N, or N m]
+    solutions: int = 0  #: until points of plates were open or closed as the solution has them
     rig: object = field(default=None, repr=False)  #: whose parts have the forces
     plates: tuple[tuple[float, ...], ...] = ()  #: force, displacement and angle of each
     node_sets: tuple[tuple[float, ...], ...] = ()  #: the same, moment and angle
@@ -71,6 +72,8 @@ class SolidPartStatics(PartStatics):
     ) -> SolidElasticState:
         """Where the unloaded solid would come to rest, if all of it stayed elastic and had no weight.
 
+        Plates that are not bonded press alone, as of the plane, where they touch at the beginning.
+
         Args:
             pressures: On parts [Pa]: they are free to move along their normals.
             way: How far the driven parts, or a machine's crosshead, go along the loading [m], or
@@ -83,38 +86,25 @@ class SolidPartStatics(PartStatics):
         way, asked = required_loading(way, load)
         frame = self._frame
         driven = bool(frame.driven or frame.drivenSets)
-        moves = asked is not None or way != 0.0
-        if moves:
+        if asked is not None or way != 0.0:
             self._require_driven("elastic:")
         pressed = self._pressed(frame, {} if pressures is None else pressures)
         if not (driven or pressed):
             raise InputError("elastic: pressures, driven parts = none, must be some")
         solid = self.built
         assert isinstance(solid, SolidModel)
-        sum_of = _Sum(solid)
         try:
-            if any(pressed.values()):
-                found = frame.pressedState(list(pressed), list(pressed.values()))
-                sum_of.add(found, 1.0 / found["way"])
-            # pressures alone leave the plate, so the crosshead of its machine has moved
-            behind = 0.0
-            if self.machine:
-                push = np.dot(sum_of.plates[frame.driven[0]][:3], np.array(frame.direction))
-                behind = float(push) / self.machine
-            if moves or behind:
-                found = frame.solidState(list(pressed))
-                if asked is not None and not found["load"]:
-                    raise ValueError(f"load = {asked:g}, must be left out: nothing resists")
-                missing = 0.0 if asked is None else asked - sum_of.load
-                factor = (way - behind) / found["way"] if asked is None else missing / found["load"]
-                way = behind + factor * found["way"]
-                sum_of.add(found, factor)
+            found = frame.elasticState(list(pressed), list(pressed.values()), way, asked)
         except (ValueError, RuntimeError) as error:
             raise InputError(f"elastic: {error}") from None
+        sum_of = _Sum(solid)
+        for share in found["shares"]:
+            sum_of.add(share)
         return SolidElasticState(
             **sum_of.arrays,
-            way=way,
-            load=sum_of.load,
+            way=found["way"],
+            load=found["load"],
+            solutions=found["solutions"],
             rig=self,
             plates=_rows(sum_of.plates),
             node_sets=_rows(sum_of.node_sets),
@@ -127,18 +117,17 @@ class _Sum:
     def __init__(self, solid: SolidModel) -> None:
         self._solid, still = solid, solid.snapshot()
         self._still = {name: getattr(still, name) for name in SolidSnapshot.__dataclass_fields__}
-        self.arrays, self.load = dict(self._still), 0.0
+        self.arrays = dict(self._still)
         # force, displacement and angle of each; of node sets moment, too
         self._laid = [[*np.zeros(6), *one["angle"]] for one in solid.solver.plates()]
         self.plates = np.reshape(self._laid, (-1, 9)).astype(float)
         self.node_sets = np.zeros((len(solid.solver.nodeSets()), 12))
 
-    def add(self, found: Table, factor: float) -> None:
-        small = self._solid.state_of(found["snapshot"])
+    def add(self, found: Table) -> None:
+        small, factor = self._solid.state_of(found["snapshot"]), found["factor"]
         for name in _LINEAR:
             grown = factor * (getattr(small, name) - self._still[name])
             self.arrays[name] = self.arrays[name] + grown
-        self.load += factor * found["load"]
         plates = np.reshape(found["plates"], self.plates.shape)
         self.plates += factor * (plates - np.reshape(self._laid, self.plates.shape))
         self.node_sets += factor * np.reshape(found["node_sets"], self.node_sets.shape)
