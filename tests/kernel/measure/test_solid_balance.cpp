@@ -30,20 +30,6 @@ Momenta momenta(const Specimen& s, double dt)
     return m;
 }
 
-/// Grains that fly apart and turn.
-void kick(Specimen& s, double speed, double spin, std::uint64_t seed)
-{
-    flexpm::Random random(seed);
-    for (Grain& g : s.grains) {
-        const Vector v = speed * draw(random), w = spin * draw(random);
-        const Vector centre = s.nodes[g.centre()].reference;
-        for (int n : g.nodes)
-            s.nodes[n].velocity = v + cross(w, s.nodes[n].reference - centre);
-        g.spin = w;
-        g.angular_momentum = g.inertia * w;
-    }
-}
-
 }  // namespace
 
 TEST_CASE("Momentum and angular momentum stay while faces open, slide and part", "[solids]")

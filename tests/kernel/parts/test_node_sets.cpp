@@ -63,16 +63,6 @@ Ends hold_ends(Assembly& a, bool x = true, bool y = true)
     return { left, add_node_set(a, nodes_between(a, length - size, length), { x, y, false }) };
 }
 
-void run(Assembly& a, int steps, double damping = 0.7)
-{
-    StepOptions o;
-    o.damping = damping;
-    for (int i = 0; i < steps; ++i) {
-        o.measure = i + 1 == steps;
-        step(a, o);
-    }
-}
-
 /// A loading at a constant velocity, started without a wave.
 void start(Assembly& a, int set, Point velocity, double spin)
 {
@@ -125,7 +115,7 @@ TEST_CASE("A beam that sets pull has equal forces at both ends, and their work i
     reset_energy_balance(a);
     const double motion = energies(a).boundary_work;
     CHECK(motion == Approx(kinetic_of_velocities(a.grains)));
-    run(a, 1000);
+    driven::run_measured(a, 1000);
     const NodeSet &held = a.node_sets[left], &driven = a.node_sets[right];
     CHECK(driven.force.x > 0.0);
     CHECK(held.force.x == Approx(-driven.force.x).epsilon(1e-3));
@@ -152,7 +142,7 @@ TEST_CASE("What is held along one axis is free along the other")
     Assembly a = beam(GENERATE(false, true));
     const auto [left, right] = hold_ends(a, true, false);
     start(a, right, { 1e-9, 0.0 }, 0.0);
-    run(a, 1000);
+    driven::run_measured(a, 1000);
     CHECK(a.node_sets[left].force.x < 0.0);
     CHECK(a.node_sets[right].force.y == 0.0);
     double widest = 0.0;
@@ -172,7 +162,7 @@ TEST_CASE("Nodes that turn about a point go round it, however far")
     for (int g = 0; g < a.grains.count; ++g) {
         if (a.grains.is_rigid(g)) driven::prescribe_spin(a.grains, g, 1e-3);
     }
-    run(a, 1571);  // a quarter of a turn
+    driven::run_measured(a, 1571);  // a quarter of a turn
     const double angle = 1.571;
     CHECK(a.node_sets[all].angle.z == Approx(angle));
     for (int n : a.node_sets[all].nodes) {
@@ -194,7 +184,7 @@ TEST_CASE("A set that floats bears a moment alone, which is the same all along a
     start(a, right, {}, 1e-9);
     reset_energy_balance(a);
     const double motion = energies(a).boundary_work;
-    run(a, 4000);
+    driven::run_measured(a, 4000);
     const NodeSet &held = a.node_sets[left], &turned = a.node_sets[right];
     CHECK(turned.angle.z == Approx(4e-6));
     CHECK(part_displacement(a, parts) == turned.angle.z);
@@ -220,7 +210,7 @@ TEST_CASE("Two ends that turn against each other load by the sum of their moment
     parts.back_sets = { left };
     set_motion_of(a, left, {}, { 0.0, 0.0, -1e-9 });
     start(a, right, {}, 1e-9);
-    run(a, 1000);
+    driven::run_measured(a, 1000);
     CHECK(part_load(a, parts) == a.node_sets[right].moment.z - a.node_sets[left].moment.z);
     CHECK(a.node_sets[left].angle.z == Approx(-1e-6));
     for (const NodeSet& set : a.node_sets) {
@@ -243,19 +233,19 @@ TEST_CASE("A loading that changes its velocity takes one that floats along, and 
     let_float(a, right);
     start(a, right, {}, 1e-9);
     reset_energy_balance(a);
-    run(a, 200);
+    driven::run_measured(a, 200);
     const double before = a.node_sets[right].velocity.y, moment = a.loading.sets[right].moment.z;
     set_motion_of(a, right, {}, { 0.0, 0.0, 2e-9 });
     change_loading(a, 2.0);
     drive_node_sets(a, 1.0);
     CHECK(a.node_sets[right].velocity.y == Approx(2.0 * before).epsilon(0.05));
     CHECK(a.loading.sets[right].moment.z == Approx(2.0 * moment));
-    run(a, 200);
+    driven::run_measured(a, 200);
     CHECK(renew_loading(a));
     CHECK(a.loading.sets[right].moment.z == Approx(2.0 * moment));
     CHECK(renew_loading(a, -1.0));
     CHECK(a.loading.sets[right].moment.z == Approx(2.0 * moment));
-    run(a, 200);
+    driven::run_measured(a, 200);
     CHECK(miss_of(a) < 1e-9);
 }
 
@@ -267,7 +257,7 @@ TEST_CASE("A velocity that is set between steps goes with the works")
     for (double velocity : { 1e-10, 3e-10, -1e-10 }) {
         set_motion_of(a, right, { velocity, 0.5 * velocity }, { 0.0, 0.0, 10.0 * velocity });
         drive_node_sets(a, 1.0);
-        run(a, 100);
+        driven::run_measured(a, 100);
     }
     CHECK(miss_of(a) < 1e-9);
     CHECK(works(a) == Approx(energies(a).boundary_work).epsilon(1e-9));

@@ -33,16 +33,6 @@ Assembly squares(int nx, int ny, bool rigid)
     return specimens::assemble(specimens::grid(nx, ny, size), o);
 }
 
-void run(Assembly& a, int steps, double damping = 0.7)
-{
-    flexpm::StepOptions o;
-    o.damping = damping;
-    for (int i = 0; i < steps; ++i) {
-        o.measure = i + 1 == steps;
-        flexpm::step(a, o);
-    }
-}
-
 /// Largest error of the energy balance over the largest work, looked at every 50 steps.
 struct Balance {
     double error = 0.0, work = 0.0;
@@ -68,9 +58,9 @@ TEST_CASE("plates are in series with a grid of rigid squares", "[plate]")
     flexpm::scale_masses(a, 0.7);
     const double closure = 1e-7;
     flexpm::set_velocity(a, upper, { 0.0, -closure / 500 });
-    run(a, 500);
+    driven::run_measured(a, 500);
     flexpm::set_velocity(a, upper, { 0.0, 0.0 });
-    run(a, 1500);
+    driven::run_measured(a, 1500);
     // ny - 1 contacts of grains and two of plates, all of stiffness K_n per area
     const double stress = stiffness * closure / (ny + 1);
     const double force = stress * nx * size * specimens::thickness;
@@ -91,7 +81,7 @@ TEST_CASE("a plate lets go unless it is bonded", "[plate]")
     const int upper = flexpm::add_side_plates(a, flexpm::top_side, 1, { 0.0, 0.0, bonded }).front();
     flexpm::scale_masses(a, 0.7);
     flexpm::set_velocity(a, upper, { 0.0, 1e-10 });
-    run(a, 1000);
+    driven::run_measured(a, 1000);
     const double pull = flexpm::plate_force(a, flexpm::top_side).y;
     if (bonded) CHECK(pull > 1.0);
     if (!bonded) CHECK(pull == 0.0);
@@ -104,7 +94,7 @@ TEST_CASE("boundary nodes of deformable grains carry their tributary length", "[
     flexpm::scale_masses(a, 0.7);
     driven::hold_all(a);
     flexpm::set_velocity(a, plate, { 0.0, -1e-9 });
-    run(a, 1);
+    driven::run_measured(a, 1);
     for (int e = 0; e < a.facets.count; ++e) {
         if (a.facets.side[e] != flexpm::top_side) continue;
         for (int node : a.facets.nodes(e)) {
@@ -126,14 +116,14 @@ TEST_CASE("friction of a plate is Coulomb's, and its loss is booked", "[plate]")
         a.grains.prescribed[component(a.grains.centre(0), 1)] = 1;
     driven::prescribe_spin(a.grains, 0, 0.0);
     flexpm::set_velocity(a, upper, { 0.0, -1e-9 });
-    run(a, 100, 0.0);
+    driven::run_measured(a, 100, 0.0);
     const double normal = -flexpm::plate_force(a, flexpm::top_side).y;
     const double k = stiffness * size * specimens::thickness;
     CHECK(normal == Approx(k * 1e-7).epsilon(1e-9));
 
     const double slip = 5e-7;
     flexpm::set_velocity(a, upper, { slip / 100, 0.0 });
-    run(a, 100, 0.0);
+    driven::run_measured(a, 100, 0.0);
     CHECK(flexpm::plate_force(a, flexpm::top_side).x == Approx(friction * normal).epsilon(1e-12));
     const double elastic = friction * normal / (0.28 * k);  // slip before it slides
     CHECK(flexpm::energies(a).friction
@@ -159,7 +149,7 @@ TEST_CASE("a membrane of loaded plates presses with its pressure", "[plate]")
     for (int i = 0; i < 3000; ++i) {
         for (int p : membrane)
             flexpm::press(a, p, pressure * flexpm::ramp_factor(a.step, 1000));
-        run(a, 1);
+        driven::run_measured(a, 1);
         if (i % 50 == 0) balance.look(a);
     }
     for (int p : membrane) {
@@ -183,7 +173,7 @@ TEST_CASE("energy of a specimen broken between plates is accounted for", "[plate
     flexpm::set_velocity(a, upper, { 0.0, -4e-8 });
     Balance balance;
     for (int i = 0; i < 120; ++i) {
-        run(a, 50);
+        driven::run_measured(a, 50);
         balance.look(a);
     }
     REQUIRE(flexpm::count_cracks(a).shear + flexpm::count_cracks(a).tensile > 10);

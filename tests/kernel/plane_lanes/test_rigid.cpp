@@ -33,17 +33,6 @@ Assembly rigid(const specimens::Specimen& s, const flexpm::ContactMaterial& cont
     return specimens::assemble(s, rigid_options(contact));
 }
 
-void run(Assembly& a, int steps, double damping, double dt = 1.0)
-{
-    flexpm::StepOptions o;
-    o.damping = damping;
-    o.dt = dt;
-    for (int i = 0; i < steps; ++i) {
-        o.measure = i + 1 == steps;
-        flexpm::step(a, o);
-    }
-}
-
 /// Random velocities and spins that move points by about `speed`.
 void shake(Assembly& a, double speed)
 {
@@ -64,7 +53,7 @@ TEST_CASE("a rigid grain keeps its shape to round-off when it turns", "[rigid]")
     const double turn = 2.5 * 3.14159265358979323846;
     const int steps = GENERATE(40, 1000);
     flexpm::set_motion(a.grains, 0, { 1e-4 / steps, 0.0 }, turn / steps, 1.0);
-    run(a, steps, 0.7);
+    driven::run_measured(a, steps, 0.7);
 
     CHECK(flexpm::rotation_of(a.grains, 0) == Approx(turn).epsilon(1e-13));
     const int c = a.grains.centre(0);
@@ -86,7 +75,7 @@ TEST_CASE("half the turn of a rigid grain is a unit quaternion", "[rigid]")
     flexpm::scale_masses(a, 0.7);
     const double turn = GENERATE(1e-9, 0.4, -2.0, 3.1415926, 3.2, -4.0);
     flexpm::set_motion(a.grains, 0, { 0.0, 0.0 }, turn / 20, 1.0);
-    run(a, 20, 0.0);
+    driven::run_measured(a, 20, 0.0);
     const auto half = flexpm::half_turn(a.grains, 0);
     CHECK(std::hypot(half.cosine, half.sine) == Approx(1.0).epsilon(1e-12));
     // a quaternion and its negative are the same turn
@@ -102,7 +91,7 @@ TEST_CASE("a rigid grain that nothing holds has finite masses and keeps its moti
     CHECK(a.grains.inverse_mass[flexpm::scalar_index(a.grains.centre(0))] > 0.0);
     CHECK(a.grains.inverse_inertia[a.grains.slot[0]] > 0.0);
     flexpm::set_motion(a.grains, 0, { 1e-6, 0.0 }, 1e-4, 1.0);
-    run(a, 10, 0.7);
+    driven::run_measured(a, 10, 0.7);
     CHECK(a.grains.displacement[a.grains.centre(0)] == Approx(1e-5).epsilon(1e-12));
     CHECK(flexpm::energies(a).kinetic > 0.0);
 }
@@ -112,10 +101,10 @@ TEST_CASE("nodes move in a step as far as their velocities say", "[rigid]")
     Assembly a = rigid(specimens::hexagon(), specimens::granite_contact());
     flexpm::scale_masses(a, 0.7, 0.5);
     flexpm::set_motion(a.grains, 0, { 1e-4, -2e-4 }, 0.3, 0.5);
-    run(a, 1, 0.7, 0.5);
+    driven::run_measured(a, 1, 0.7, 0.5);
     const auto velocity = a.grains.velocity;
     const auto before = a.grains.displacement;
-    run(a, 1, 0.7, 0.5);
+    driven::run_measured(a, 1, 0.7, 0.5);
     for (int n = 0; n < a.grains.nodes_of(0); ++n) {
         for (int i : { a.grains.node(0, n), component(a.grains.node(0, n), 1) }) {
             CHECK(a.grains.displacement[i] - before[i] == Approx(0.5 * velocity[i]).margin(1e-17));
@@ -173,10 +162,10 @@ TEST_CASE("stepping rigid grains arrives at the elastic solve", "[rigid][elastic
     for (int i : ends)
         a.grains.prescribed[i] = a.grains.prescribed[component(i, 1)] = 1;
     flexpm::set_motion(a.grains, a.grains.count - 1, { 1e-10, 0.0 }, 0.0, 1.0);
-    run(a, 1000, 0.7);
+    driven::run_measured(a, 1000, 0.7);
     flexpm::set_motion(a.grains, a.grains.count - 1, { 0.0, 0.0 },
         a.grains.spin[a.grains.slot[a.grains.count - 1]], 1.0);
-    run(a, 4000, 0.7);
+    driven::run_measured(a, 4000, 0.7);
     for (int g = 0; g < a.grains.count; ++g) {
         for (int n = 0; n < a.grains.nodes_of(g); ++n) {
             for (int i : { a.grains.node(g, n), component(a.grains.node(g, n), 1) }) {
@@ -206,7 +195,7 @@ TEST_CASE("contacts of rigid grains follow those of deformable grains led along 
     flexpm::set_motion(stiff.grains, 1, { speed, 0.5 * speed }, spin, 1.0);
     const int c = soft.grains.centre(1);
     for (int i = 1; i <= steps; ++i) {
-        run(stiff, 1, 0.7);
+        driven::run_measured(stiff, 1, 0.7);
         driven::aim(soft, 1.0, [&](int node) {
             const Point reference = vector_at(soft.grains.reference, node);
             if (node % lanes == c % lanes && node >= soft.grains.node(1, 0)
@@ -246,7 +235,7 @@ TEST_CASE("an elastic rigid contact resists rotation with K_n t h^3 / 12", "[rig
         driven::prescribe_spin(a.grains, g, 0.0);
     }
     driven::prescribe_spin(a.grains, 1, angle);
-    run(a, 1, 0.0);
+    driven::run_measured(a, 1, 0.0);
     const double h = size, t = specimens::thickness;
     // the edge is half a size from the centre: shear adds its force at that arm
     const double shear = 0.28 * stiffness * h * t * 0.25 * size * size;
@@ -264,9 +253,9 @@ TEST_CASE("scaled masses keep rigid grains stable", "[rigid][stability]")
         const double damping = GENERATE(0.3, 0.7);
         flexpm::scale_masses(a, damping);
         shake(a, 1e-12);
-        run(a, 1, damping);
+        driven::run_measured(a, 1, damping);
         const double start = flexpm::energies(a).kinetic;
-        run(a, 3000, damping);
+        driven::run_measured(a, 3000, damping);
         CHECK(flexpm::energies(a).kinetic < 1e-6 * start);
     }
     SECTION("undamped, it stays bounded and the total is kept")
@@ -274,7 +263,7 @@ TEST_CASE("scaled masses keep rigid grains stable", "[rigid][stability]")
         flexpm::scale_masses(a, 0.0);
         shake(a, 1e-12);
         flexpm::reset_energy_balance(a);
-        run(a, 20000, 0.0);
+        driven::run_measured(a, 20000, 0.0);
         const auto e = flexpm::energies(a);
         CHECK(e.kinetic < 100.0 * e.initial);
         CHECK(balance::total(e) == Approx(e.initial).epsilon(1e-8));
@@ -296,7 +285,7 @@ TEST_CASE("real masses and inertia of rigid grains are those of their cells", "[
     CHECK(dt > 0.0);
     shake(a, 1e-9);
     flexpm::reset_energy_balance(a);
-    run(a, 20000, 0.0, dt);
+    driven::run_measured(a, 20000, 0.0, dt);
     CHECK(flexpm::energies(a).kinetic < 100.0 * flexpm::energies(a).initial);
 }
 
@@ -315,7 +304,7 @@ TEST_CASE("energy of breaking rigid grains is accounted for", "[rigid][energy]")
     flexpm::reset_energy_balance(a);
     double work = 0.0, error = 0.0;
     for (int i = 0; i < 60; ++i) {
-        run(a, 100, 0.7);
+        driven::run_measured(a, 100, 0.7);
         const auto e = flexpm::energies(a);
         work = std::max(work, std::fabs(e.boundary_work));
         error = std::max(error, std::fabs(balance::miss(e)));
@@ -331,7 +320,7 @@ TEST_CASE("a retired rigid grain stands still", "[rigid]")
     shake(a, 1e-9);
     flexpm::remove_grain(a, 0);
     const auto before = a.grains.displacement[a.grains.node(0, 0)];
-    run(a, 10, 0.7);
+    driven::run_measured(a, 10, 0.7);
     CHECK(a.grains.displacement[a.grains.node(0, 0)] == before);
     CHECK(flexpm::rotation_of(a.grains, 0) == 0.0);
 }

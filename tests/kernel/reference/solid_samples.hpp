@@ -134,4 +134,18 @@ inline Vector draw(flexpm::Random& random)
     return { x, y, z };
 }
 
+/// Grains that fly apart and turn.
+inline void kick(Specimen& s, double speed, double spin, std::uint64_t seed)
+{
+    flexpm::Random random(seed);
+    for (Grain& g : s.grains) {
+        const Vector v = speed * draw(random), w = spin * draw(random);
+        const Vector centre = s.nodes[g.centre()].reference;
+        for (int n : g.nodes)
+            s.nodes[n].velocity = v + cross(w, s.nodes[n].reference - centre);
+        g.spin = w;
+        g.angular_momentum = g.inertia * w;
+    }
+}
+
 }  // namespace solid_samples

@@ -25,20 +25,6 @@ struct Case {
 /// Steps of a real mass and time.
 constexpr double dt = 2e-8;
 
-void kick(plain_solid::Specimen& plain, const Case& c, std::uint64_t seed)
-{
-    Random random(seed);
-    for (auto& g : plain.grains) {
-        const Vector v = c.speed * solid_samples::draw(random);
-        const Vector w = c.spin * solid_samples::draw(random);
-        const Vector centre = plain.nodes[g.centre()].reference;
-        for (int n : g.nodes)
-            plain.nodes[n].velocity = v + cross(w, plain.nodes[n].reference - centre);
-        g.spin = w;
-        g.angular_momentum = g.inertia * w;
-    }
-}
-
 /// Nodes of both ends are held along z, as a test would; of rigid grains the spin of the first.
 void hold_ends(plain_solid::Specimen& plain, double top)
 {
@@ -113,7 +99,7 @@ TEST_CASE("A step in space is that of the plain stepper to round-off", "[solids]
         const Packing p = packing(c.grains, seed);
         plain_solid::Specimen plain = plain_solid::make_specimen(p.cells, specimens::granite(),
             specimens::granite_contact(), { c.rigid, false, c.rule });
-        kick(plain, c, seed + 40);
+        solid_samples::kick(plain, c.speed, c.spin, seed + 40);
         if (c.held) hold_ends(plain, p.solid.high.z);
         SolidState s = make_solid(p.cells, p.solid, granite(c.rule, c.rigid));
         copy_motion(s, plain);

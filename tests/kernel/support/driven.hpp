@@ -67,6 +67,18 @@ inline void run(Assembly& a, int steps, double damping = 0.0)
         flexpm::step(a, options);
 }
 
+/// Steps the last of which is measured.
+inline void run_measured(Assembly& a, int steps, double damping = 0.7, double dt = 1.0)
+{
+    flexpm::StepOptions options;
+    options.damping = damping;
+    options.dt = dt;
+    for (int i = 0; i < steps; ++i) {
+        options.measure = i + 1 == steps;
+        flexpm::step(a, options);
+    }
+}
+
 /// Force of a contact on the node of its side (0: a, 1: b) and end (0, 1) [N].
 inline Point contact_force(const Assembly& a, int contact, int side, int end)
 {
