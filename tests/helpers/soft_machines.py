@@ -39,10 +39,3 @@ def require_descent(rig: Any, top: Any, machine: float, strength: float, *, stab
     assert given == pytest.approx(closed, rel=0.01)
     pull = rig.built.solver.plates()[top.number]["force"][len(top.normal) - 1]
     assert top.machine_energy == pytest.approx(0.5 * pull**2 / machine, rel=1e-9)
-
-
-def require_balance(rig: Any, within: float) -> None:
-    """Ask that energies sum to the work of the boundary, within a part of it [-]."""
-    energies = rig.built.solver.energies()
-    given = energies.pop("boundary_work") + energies.pop("initial_energy")
-    assert sum(energies.values()) == pytest.approx(given, rel=within)

@@ -12,10 +12,10 @@ import time
 from pathlib import Path
 
 import pytest
+from refusals import refusal
 
 import flexpm
 from flexpm import files
-from flexpm.errors import InputError
 from flexpm.files import (
     load_csv,
     load_json,
@@ -88,8 +88,7 @@ def test_what_is_no_file_is_refused(tmp_path):
     with socket.socket(socket.AF_UNIX) as made:
         made.bind(str(tmp_path / "socket"))
         for check in (require_writable, lambda path: write_text(path, "1\n")):
-            with pytest.raises(InputError, match="is a socket, must be a file"):
-                check(tmp_path / "socket")
+            refusal("is a socket, must be a file", check, tmp_path / "socket")
             with pytest.raises(IsADirectoryError, match="is a folder"):
                 check(tmp_path)
     assert stat.S_ISSOCK((tmp_path / "socket").stat().st_mode)
@@ -119,9 +118,7 @@ def test_a_file_is_read_no_further_than_the_largest(tmp_path, read, name, monkey
             file.truncate(files._LARGEST + 1)
     monkeypatch.setattr(files, "_LARGEST_TABLE", files._LARGEST)
     begin = time.process_time()
-    with pytest.raises(InputError, match="it = ") as refused:
-        read(Path(name), "it")
-    assert "\n" not in str(refused.value)
+    refusal("it = ", read, Path(name), "it")
     assert time.process_time() - begin < 2.0
 
 
@@ -137,14 +134,11 @@ def test_a_file_is_read_no_further_than_the_largest(tmp_path, read, name, monkey
 )
 def test_other_readers_have_the_same_limit(read, name):
     begin = time.process_time()
-    with pytest.raises(InputError) as refused:
-        read(name)
-    assert "\n" not in str(refused.value)
+    refusal("", read, name)
     assert time.process_time() - begin < 2.0
 
 
 @pytest.mark.parametrize("text", ['{"x": NaN}', '{"x": -Infinity}', '{"x": 1e999}', "[1]", "{"])
 def test_a_json_table_has_finite_numbers(tmp_path, text):
     (tmp_path / "it.json").write_text(text)
-    with pytest.raises(InputError, match="is no JSON table"):
-        load_json(tmp_path / "it.json", "it")
+    refusal("is no JSON table", load_json, tmp_path / "it.json", "it")

@@ -15,6 +15,7 @@ import tomli_w
 from fuzz_child import drawing
 from hypothesis import example, given
 from hypothesis import strategies as st
+from refusals import refused_command
 
 import flexpm
 from flexpm.cli import main as cli
@@ -222,9 +223,7 @@ def test_a_saved_specimen_with_another_byte_is_the_same_or_refused(tmp_path, sma
 def refused(capsys, path: Path, content: dict, command: str = "study") -> str:
     """The line in which a command refuses a file; nothing is run."""
     path.write_text(tomli_w.dumps(content))
-    assert cli.main([command, str(path), "--out", str(path.parent / "out")]) == 2
-    errors = capsys.readouterr().err
-    assert errors.count("\n") == 1
+    errors = refused_command(capsys, "", command, path, "--out", path.parent / "out")
     assert not (path.parent / "out").exists()
     return errors
 
@@ -268,5 +267,4 @@ def test_too_many_minerals_are_refused_with_their_number(capsys, tmp_path):
 def test_a_scheduler_that_is_none_is_refused(capsys, tmp_path):
     (tmp_path / "it.toml").write_text(tomli_w.dumps(STUDY))
     arguments = ["study", str(tmp_path / "it.toml"), "--out", str(tmp_path / "out")]
-    assert cli.main([*arguments, "--scheduler", "nonsense"]) == 2
-    assert "cannot be reached" in capsys.readouterr().err
+    refused_command(capsys, "cannot be reached", *arguments, "--scheduler", "nonsense")

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
 import sys
 
 import pytest
+from processes import captured
 
 SCRIPT = """
 import ctypes, json, os, sys
@@ -43,7 +43,7 @@ def told(package_parent, model, threads, available):
         "OMP_NUM_THREADS": str(available),
     }
     command = [sys.executable, "-c", SCRIPT, model, str(threads)]
-    done = subprocess.run(command, env=surroundings, capture_output=True, text=True, timeout=300)
+    done = captured(command, env=surroundings, timeout=300)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout.splitlines()[-1])
 

@@ -112,23 +112,6 @@ def test_waiting_loading_gives_the_strength_of_a_slow_one_in_fewer_steps(test, m
     assert 0.01 * fastest <= np.min(factor) < 0.2 * fastest
 
 
-def test_waiting_loading_is_the_same_after_a_checkpoint(tmp_path, monkeypatch):
-    """An interrupted run goes on to the same bits: what the controller has seen is saved."""
-    specimen = flexpm.Specimen.rectangle(0.01, 0.02, 0.08, seed=1)
-    options = {"model": "rigid", "loading": "waiting", "rate": 4.0}
-    whole = flexpm.run("uniaxial", specimen, **options)
-
-    def interrupt(done, expected, text):
-        if done > whole.steps // 2:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        flexpm.run("uniaxial", specimen, **options, out=tmp_path / "run", progress=interrupt)
-    resumed = flexpm.run("uniaxial", specimen, **options, out=tmp_path / "run")
-    assert resumed.resumed_at > 0
-    np.testing.assert_array_equal(resumed.curve.array, whole.curve.array)
-
-
 @pytest.mark.parametrize(
     ("options", "rule"),
     [

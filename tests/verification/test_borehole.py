@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import flexpm  # isort: skip  (first: it tells Python where YADE is)
-import yade
+
+from scenes import fresh
 
 from flexpm.results.snapshot import Snapshot
 from flexpm.rigs.parts import Part
@@ -98,9 +99,8 @@ def made_rig(
     specimen: flexpm.Specimen | None = None, *, pulls: bool = False
 ) -> tuple[flexpm.PartRig, list[Part]]:
     """The plate with its hole between four smooth platens; the first and the last may pull."""
-    yade.O.reset()
     specimen = specimen or flexpm.Specimen.from_polygons(cells(), THICKNESS, holes=True)
-    rig = flexpm.PartRig(flexpm.build(specimen, hard_rock()))
+    rig = flexpm.PartRig(fresh(specimen, hard_rock()))
     return rig, [rig.platen(side, bonded=pulls and side in (0, 3)) for side in range(4)]
 
 

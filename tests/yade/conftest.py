@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scenes import fresh
 
 import flexpm
 from flexpm.runs import runner
@@ -20,6 +21,8 @@ wrapper = importlib.import_module("yade.wrapper")
 
 #: Opening speed of the ends [m/step]: fast, so that contacts break within some thousand steps.
 PULL = 5e-9
+#: Of a box [m].
+SOLID_SIZES = (0.008, 0.008, 0.014)
 
 
 @pytest.fixture(scope="session")
@@ -44,6 +47,33 @@ def make(specimen: flexpm.Specimen) -> Callable[..., flexpm.Model]:
         return model
 
     return made
+
+
+@pytest.fixture(scope="session")
+def box():
+    return flexpm.Specimen.box(*SOLID_SIZES, seed=1)
+
+
+@pytest.fixture
+def solid(box):
+    """Build the box in an empty scene, its top driven at `velocity` if that is given."""
+
+    def made(model="flexible", velocity=None):
+        built = fresh(box, model=model)
+        if velocity is not None:
+            built.solver.holdEnds(velocity > 0.0)
+            built.set_masses()
+            ends = wrapper.SolidLoadingController(velocity=velocity)
+            built.add_engines(before=(ends,))
+        return built
+
+    return made
+
+
+@pytest.fixture(params=["make", "solid"])
+def either(request: pytest.FixtureRequest) -> Callable[..., flexpm.Model]:
+    """Build a specimen of 2D or 3D in an empty scene."""
+    return request.getfixturevalue(request.param)
 
 
 @pytest.fixture

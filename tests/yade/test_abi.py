@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
+from processes import captured
 
 from flexpm import _flexpm, _plugin
 
@@ -90,9 +90,7 @@ def test_size_read_from_code_equals_disassembly(name: str) -> None:
         "--no-show-raw-insn",
         f"--disassemble=_ZN4yade{6 + len(name)}Create{name}Ev",
     ]
-    text = subprocess.run(
-        [*command, str(library)], capture_output=True, text=True, check=True
-    ).stdout
+    text = captured([*command, str(library)], check=True).stdout
     size = int(re.search(r"mov\s+\$0x([0-9a-f]+),%edi", text).group(1), 16)
     assert SIZES[name] == f"{size} bytes"
 

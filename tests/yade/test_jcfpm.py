@@ -7,9 +7,9 @@ import bonded_pair
 import numpy as np
 import pytest
 import yade
+from refusals import refusal
 
 from flexpm.cli import main as cli
-from flexpm.errors import InputError
 from flexpm.laboratory import protocols
 from flexpm.models import grains as models
 from flexpm.results.measures import peak_row
@@ -84,8 +84,7 @@ def test_the_same_run_gives_the_same_bits(rectangle):
     [({"points": 1}, "points"), ({"mesh": "fan"}, "mesh"), ({"damping": 1.0}, "damping")],
 )
 def test_what_the_model_does_not_have_is_refused(rectangle, options, word):
-    with pytest.raises(InputError, match=word):
-        models.build(rectangle, None, MODEL, **options)
+    refusal(word, models.build, rectangle, None, MODEL, **options)
 
 
 @pytest.mark.parametrize("model", ["jcfpm", "cohfrict"])
@@ -98,15 +97,12 @@ def test_a_single_grain_has_no_bond_to_take_a_stiffness_from(solid, model):
     else:
         corners = [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]]
         one = Specimen.from_discs([[0.5 * side] * 2], [0.003], corners, 0.01)
-    with pytest.raises(InputError, match=f"bonds = none among 1 grains, {model} takes"):
-        models.build(one, None, model)
+    refusal(f"bonds = none among 1 grains, {model} takes", models.build, one, None, model)
 
 
 def test_tests_refuse_the_wrong_shape(rectangle):
-    with pytest.raises(InputError, match="disc"):
-        protocols.run("brazilian", rectangle, model=MODEL)
-    with pytest.raises(InputError, match="confinement"):
-        protocols.run("uniaxial", rectangle, model=MODEL, confinement=1e6)
+    refusal("disc", protocols.run, "brazilian", rectangle, model=MODEL)
+    refusal("confinement", protocols.run, "uniaxial", rectangle, model=MODEL, confinement=1e6)
 
 
 def test_the_command_writes_the_files_of_a_run(tmp_path):

@@ -11,6 +11,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from processes import captured
 
 PYTHON = "/usr/bin/python3"
 USE = "import flexpm, yade\nassert all(hasattr(yade, name) for name in flexpm.load())\n"
@@ -23,9 +24,7 @@ def run(
     environment.pop("DISPLAY", None)
     if display is not None:
         environment["DISPLAY"] = display
-    return subprocess.run(
-        command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120
-    )
+    return captured(command, cwd=folder, env=environment, timeout=120)
 
 
 def test_plain_python_prints_nothing(package_parent: Path, tmp_path: Path) -> None:

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 
 import pytest
+from processes import captured
 
 import flexpm
 from flexpm.models.grains import SolidModel
@@ -66,9 +66,7 @@ print(growth(grains), growth(spheres))
 
 def numbers(script: str) -> list[float]:
     """What a script prints in a process of its own."""
-    done = subprocess.run(
-        [sys.executable, "-c", COMMON + script], capture_output=True, text=True, check=True
-    )
+    done = captured([sys.executable, "-c", COMMON + script], check=True)
     return [float(word) for word in done.stdout.split()]
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.image import imread
+from processes import captured
 
 from flexpm._plugin import yade_folder
 
@@ -27,9 +28,7 @@ print("peak", repr(result.peak_stress), result.status)
 def run(command: list[str], package_parent: Path, folder: Path) -> subprocess.CompletedProcess[str]:
     environment = dict(os.environ, PYTHONPATH=str(package_parent), OMP_NUM_THREADS="1")
     environment.pop("DISPLAY", None)
-    return subprocess.run(
-        command, cwd=folder, env=environment, capture_output=True, text=True, timeout=240
-    )
+    return captured(command, cwd=folder, env=environment, timeout=240)
 
 
 @pytest.mark.long

@@ -18,6 +18,7 @@ import pytest
 import yade
 from hypothesis import HealthCheck, assume, given
 from hypothesis import strategies as st
+from refusals import refusal
 
 import flexpm
 from flexpm import _plugin
@@ -205,8 +206,7 @@ def test_a_folder_with_a_checkpoint_of_other_inputs_is_refused(small, tmp_path):
         assert message in str(caught.value)
         assert "\n" not in str(caught.value)
     other = flexpm.Specimen.rectangle(**{**SIZE, "seed": 2})
-    with pytest.raises(flexpm.InputError, match="seed = 1 there, 2 here"):
-        flexpm.run("tension", other, rate=4.0, out=tmp_path)
+    refusal("seed = 1 there, 2 here", flexpm.run, "tension", other, rate=4.0, out=tmp_path)
 
 
 def test_a_checkpoint_of_another_version_is_refused(small, tmp_path, monkeypatch):
@@ -246,9 +246,7 @@ def test_an_interrupted_command_saves_a_checkpoint(package_parent, tmp_path, num
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"scene": "x"}', "null"])
 def test_a_file_that_is_no_checkpoint_is_refused_in_one_line(tmp_path, text):
     (tmp_path / "checkpoint.json").write_text(text)
-    with pytest.raises(flexpm.InputError, match=r"must be a checkpoint of flexpm") as caught:
-        Checkpoint(tmp_path, SPEC)
-    assert "\n" not in str(caught.value)
+    refusal(r"must be a checkpoint of flexpm", Checkpoint, tmp_path, SPEC)
 
 
 @pytest.fixture(scope="module")
@@ -266,7 +264,7 @@ def copied(stopped, tmp_path) -> Path:
     )
 
 
-def refusal(small: flexpm.Specimen, folder: Path) -> str:
+def refused(small: flexpm.Specimen, folder: Path) -> str:
     """The one line in which a run into a folder is refused."""
     with pytest.raises(flexpm.InputError) as caught:
         flexpm.run("tension", small, **STOPPED, out=folder)
@@ -292,7 +290,7 @@ def test_a_flipped_bit_of_either_file_is_refused_in_one_line(small, stopped, pla
             file.write_bytes(
                 whole[:number] + bytes([whole[number] ^ 1 << bit]) + whole[number + 1 :]
             )
-            assert "checkpoint" in refusal(small, stopped)
+            assert "checkpoint" in refused(small, stopped)
         finally:
             file.write_bytes(whole)
 
@@ -306,7 +304,7 @@ def test_a_scene_that_was_cut_is_refused_in_one_line(small, stopped, part):
     whole = file.read_bytes()
     try:
         file.write_bytes(whole[: int(part * len(whole))])
-        assert "is damaged" in refusal(small, stopped)
+        assert "is damaged" in refused(small, stopped)
     finally:
         file.write_bytes(whole)
 
@@ -334,7 +332,7 @@ def test_any_value_in_a_checkpoint_is_refused_in_one_line(small, stopped, name, 
     assume(content[name] != value)
     try:
         file.write_text(json.dumps(content | {name: value}))
-        assert "checkpoint" in refusal(small, stopped)
+        assert "checkpoint" in refused(small, stopped)
     finally:
         file.write_text(whole)
 
@@ -348,7 +346,7 @@ def test_a_scene_with_an_engine_that_could_run_any_code_is_refused(small, copied
     del about["sha256"]
     about["sha256"] = checkpoint._checksum(about, copied / about["scene"])
     (copied / "checkpoint.json").write_text(json.dumps(about))
-    assert "has an engine PyRunner" in refusal(small, copied)
+    assert "has an engine PyRunner" in refused(small, copied)
 
 
 def write_as_another_build(folder: Path, scene: bytes, **entries: object) -> None:
@@ -373,7 +371,7 @@ def write_as_another_build(folder: Path, scene: bytes, **entries: object) -> Non
 )
 def test_a_checkpoint_of_another_build_is_said_to_be_one(small, copied, entries, told):
     write_as_another_build(copied, (copied / saved_in(copied)["scene"]).read_bytes(), **entries)
-    line = refusal(small, copied)
+    line = refused(small, copied)
     assert re.search(rf"written by another build of flexpm \({told}\), must be of this", line), line
     assert line.endswith("or remove the file to start again")
 
@@ -405,7 +403,7 @@ def test_a_scene_that_only_another_build_reads_is_refused_in_one_line(small, cop
     scene = (copied / saved_in(copied)["scene"]).read_bytes()
     assert change(scene) != scene
     write_as_another_build(copied, change(scene))
-    assert "written by another build of flexpm (" in refusal(small, copied)
+    assert "written by another build of flexpm (" in refused(small, copied)
     assert not yade.O.engines and not len(yade.O.bodies)
 
 
@@ -467,5 +465,4 @@ def test_a_folder_takes_one_process_and_a_dead_one_leaves_it_free(package_parent
 
 @pytest.mark.parametrize("interval", [0.0, -1.0, float("nan")])
 def test_an_interval_that_is_not_positive_is_refused(tmp_path, interval):
-    with pytest.raises(flexpm.InputError, match="checkpoint_interval"):
-        Checkpoint(tmp_path, SPEC, interval)
+    refusal("checkpoint_interval", Checkpoint, tmp_path, SPEC, interval)

@@ -6,6 +6,7 @@ import re
 import pytest
 import saved_state
 import yade
+from scenes import fresh
 
 import flexpm
 from flexpm import _plugin
@@ -51,5 +52,4 @@ def test_a_scene_with_a_class_of_another_build_is_refused(tmp_path, name):
     with pytest.raises(RuntimeError, match=f"{told} saved it; run it again, or load it with that"):
         yade.O.load(str(file), quiet=True)
     # what is left takes what comes
-    yade.O.reset()
-    flexpm.build(flexpm.Specimen.rectangle(0.012, 0.016, 0.01, seed=1)).run(3)
+    fresh(flexpm.Specimen.rectangle(0.012, 0.016, 0.01, seed=1)).run(3)

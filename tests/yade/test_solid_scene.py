@@ -20,28 +20,6 @@ SIZES = (0.008, 0.008, 0.014)
 MODELS = ("flexible", "rigid")
 
 
-@pytest.fixture(scope="module")
-def box():
-    return flexpm.Specimen.box(*SIZES, seed=1)
-
-
-@pytest.fixture
-def solid(box):
-    """Build the box in an empty scene, its top driven at `velocity` if that is given."""
-
-    def made(model="flexible", velocity=None):
-        O.reset()
-        built = flexpm.build(box, model=model)
-        if velocity is not None:
-            built.solver.holdEnds(velocity > 0.0)
-            built.set_masses()
-            ends = wrapper.SolidLoadingController(velocity=velocity)
-            built.add_engines(before=(ends,))
-        return built
-
-    return made
-
-
 def bonds():
     found = [one for one in O.interactions if one.isReal]
     return sorted(found, key=lambda one: (one.id1, one.id2))
@@ -128,44 +106,6 @@ def test_a_bond_of_a_grain_that_has_flown_out_of_sight_has_no_normal_and_no_forc
     for one in lost:
         shown = (one.geom.normal, one.phys.normalForce, one.phys.shearForce)
         assert all(tuple(vector) == (0.0, 0.0, 0.0) for vector in shown)
-
-
-def test_a_velocity_written_by_a_script_moves_the_node_in_the_next_step(solid):
-    model = solid()
-    cell = O.bodies[3].shape
-    velocities, displacements, forces = cell.velocities, cell.displacements, cell.forces
-    assert velocities.shape == (len(cell.positions), 3)
-    assert not displacements.any() and not forces.any()
-    velocities[0] = (3e-9, -2e-9, 1e-9)
-    O.step()
-    # the views are the solver's own memory: nothing was read again
-    assert tuple(displacements[0]) == (3e-9, -2e-9, 1e-9)
-    assert forces[0] @ (3e-9, -2e-9, 1e-9) < 0.0, "the grain resists"
-    first = sum(len(O.bodies[number].shape.positions) for number in range(3))
-    state = model.snapshot()
-    assert (state.forces[first : first + len(forces)] == forces).all()
-    assert (state.positions[first : first + len(forces)] == cell.positions).all()
-
-
-def test_a_held_node_keeps_the_velocity_that_a_script_gives_it(solid):
-    solid()
-    cell = O.bodies[3].shape
-    cell.held[0] = 1
-    cell.velocities[0] = (1e-9, 0.0, -1e-9)
-    O.run(25, True)
-    assert cell.displacements[0] == pytest.approx((25e-9, 0.0, -25e-9), rel=1e-12)
-    cell.held[0] = 0
-    O.run(50, True)
-    assert cell.velocities[0, 0] != 1e-9
-
-
-def test_results_cannot_be_written(solid):
-    solid()
-    cell, bond = O.bodies[0].shape, bonds()[0]
-    shown = (cell.positions, cell.forces, bond.phys.traction, bond.phys.forces, bond.geom.corners)
-    for view in shown:
-        with pytest.raises(ValueError, match="read-only"):
-            view[:] = 1
 
 
 @pytest.fixture(params=MODELS)

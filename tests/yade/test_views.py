@@ -71,41 +71,45 @@ def test_bodies_are_where_a_test_has_left_their_grains(test):
     assert solver.mirrorPeriod == 1, "a script may go on"
 
 
-def test_a_velocity_written_by_a_script_moves_the_node_in_the_next_step(make):
-    model = make()
+def test_a_velocity_written_by_a_script_moves_the_node_in_the_next_step(either):
+    model = either()
     cell = O.bodies[3].shape
     velocities, displacements, forces = cell.velocities, cell.displacements, cell.forces
     positions = cell.positions
-    start = positions.copy()
+    assert velocities.shape == positions.shape
+    start, way = positions.copy(), (3e-9, -2e-9, 1e-9)[: positions.shape[1]]
     assert not displacements.any() and not forces.any()
-    velocities[0] = (3e-9, -2e-9)
+    velocities[0] = way
     O.step()
     # the views are the solver's own memory: nothing was read again
-    assert tuple(displacements[0]) == (3e-9, -2e-9)
-    assert positions[0] == pytest.approx(start[0] + (3e-9, -2e-9), rel=1e-15)
-    assert forces[0] @ (3e-9, -2e-9) < 0.0, "the grain resists"
-    snapshot = model.snapshot()
+    assert tuple(displacements[0]) == way
+    assert cell.positions[0] == pytest.approx(start[0] + way, rel=1e-15)
+    assert forces[0] @ way < 0.0, "the grain resists"
+    state = model.snapshot()
     first = sum(len(O.bodies[b].shape.positions) for b in range(3))
-    assert (snapshot.forces[first : first + len(forces)] == forces).all()
+    assert (state.forces[first : first + len(forces)] == forces).all()
+    assert (state.positions[first : first + len(forces)] == cell.positions).all()
 
 
-def test_a_held_node_keeps_the_velocity_that_a_script_gives_it(make):
-    make()
+def test_a_held_node_keeps_the_velocity_that_a_script_gives_it(either):
+    either()
     cell = O.bodies[3].shape
+    velocity = np.array((1e-9, 0.0, -1e-9)[: cell.positions.shape[1]])
     cell.held[0] = 1
-    cell.velocities[0] = (1e-9, 0.0)
+    cell.velocities[0] = velocity
     O.run(25, True)
-    assert cell.displacements[0] == pytest.approx((25e-9, 0.0), rel=1e-12)
+    assert cell.displacements[0] == pytest.approx(25.0 * velocity, rel=1e-12)
     cell.held[0] = 0
     O.run(50, True)
     assert cell.velocities[0, 0] != 1e-9
 
 
-def test_results_cannot_be_written(make):
-    make()
-    cell = O.bodies[0].shape
-    bond = bonds()[0]
-    for view in (cell.positions, cell.forces, bond.phys.opening, bond.phys.cracked):
+def test_results_cannot_be_written(either):
+    either()
+    cell, bond = O.bodies[0].shape, bonds()[0]
+    phys, geom = bond.phys, bond.geom
+    of_solids = (phys.forces, phys.traction, geom.corners) if cell.positions.shape[1] == 3 else ()
+    for view in (cell.positions, cell.forces, phys.opening, phys.cracked, *of_solids):
         with pytest.raises(ValueError, match="read-only"):
             view[:] = 1
 

@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from processes import captured
 
 ROOT = Path(__file__).resolve().parents[3]
 CHECKS = ROOT / "scripts" / "checks"
@@ -15,7 +15,7 @@ CHECKS = ROOT / "scripts" / "checks"
 
 def run(check: str, tree: Path) -> tuple[int, str]:
     command = [sys.executable, str(CHECKS / check), str(tree)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    done = captured(command, timeout=60)
     return done.returncode, done.stdout
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from processes import captured
 
 import flexpm
 
@@ -24,7 +24,7 @@ SCRIPT = Path(__file__).parents[3] / "scripts" / "checks" / "faults.py"
 )
 def test_nothing_finished_is_lost_and_nothing_half_written_is_read(campaign, draw, build_folder):
     command = [sys.executable, SCRIPT, campaign, "--draw", str(draw), "--build", build_folder]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = captured(command)
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
     assert f"{draw} faults" in done.stdout
 
@@ -48,11 +48,9 @@ flexpm.export.write_vtu(sys.argv[1], state)
 
 
 def test_a_grid_that_is_refused_leaves_no_file(package_parent, tmp_path):
-    done = subprocess.run(
+    done = captured(
         [sys.executable, "-c", LIMITED, str(tmp_path / "grid.vtu")],
         env={**os.environ, "PYTHONPATH": str(package_parent)},
-        capture_output=True,
-        text=True,
     )
     assert "OSError: [Errno 27]" in done.stderr
     assert list(tmp_path.iterdir()) == []

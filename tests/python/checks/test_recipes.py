@@ -6,11 +6,11 @@ from __future__ import annotations
 import json
 import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from processes import captured
 
 RECIPES = sorted(
     (Path(__file__).resolve().parents[3] / "scripts" / "tutorials" / "own").glob("*.py")
@@ -36,12 +36,10 @@ def test_each_recipe_has_its_bounds():
 @pytest.mark.long
 @pytest.mark.parametrize("script", RECIPES, ids=lambda script: script.stem)
 def test_a_recipe_runs_and_leaves_its_folder(script, package_parent, tmp_path):
-    done = subprocess.run(
+    done = captured(
         [sys.executable, str(script)],
         cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": str(package_parent), "OMP_NUM_THREADS": "1"},
-        capture_output=True,
-        text=True,
         check=True,
     )
     pattern, low, high = PRINTED[script.stem]

@@ -9,6 +9,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from processes import captured
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -20,7 +21,7 @@ def version_of_headers() -> str:
     if "VERSION_CODENAME=bookworm" in Path("/etc/os-release").read_text():
         return pinned
     command = ["dpkg-query", "-W", "-f", "${source:Upstream-Version}", "yade"]
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    return captured(command, check=True).stdout
 
 
 VERSION = version_of_headers()
@@ -30,7 +31,7 @@ def headers(cache: Path, fakes: Path | None = None) -> subprocess.CompletedProce
     path = os.environ["PATH"] if fakes is None else f"{fakes}:{os.environ['PATH']}"
     command = [str(ROOT / "scripts/yade-headers"), str(cache)]
     environment = dict(os.environ, PATH=path)
-    return subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
+    return captured(command, env=environment, timeout=60)
 
 
 def unreachable_mirror(folder: Path) -> Path:
@@ -84,7 +85,7 @@ esac
 def test_wrong_source_folder_is_refused(tmp_path: Path) -> None:
     environment = dict(os.environ, YADE_SOURCE_DIR=str(tmp_path), FLEXPM_BUILD_DIR=str(tmp_path))
     command = [str(ROOT / "scripts/setup")]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)
+    done = captured(command, env=environment, timeout=60)
     assert done.returncode == 1
     assert f"YADE_SOURCE_DIR = {tmp_path}" in done.stderr.splitlines()[-1]
 
@@ -95,13 +96,7 @@ def test_wrong_source_folder_is_refused(tmp_path: Path) -> None:
     + [f"checks/{name}" for name in ("sanitize", "compilers", "format", "types")],
 )
 def test_a_script_that_is_asked_for_help_does_nothing_else(script: str, tmp_path: Path) -> None:
-    done = subprocess.run(
-        [ROOT / "scripts" / script, "--help"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        timeout=5,
-    )
+    done = captured([ROOT / "scripts" / script, "--help"], cwd=tmp_path, timeout=5)
     assert (done.returncode, done.stderr, list(tmp_path.iterdir())) == (0, "", [])
     text = (ROOT / "scripts" / script).read_text()
     assert len(done.stdout.splitlines()) >= 3
@@ -128,9 +123,7 @@ def test_flexpm_is_installed_below_any_prefix_and_removed_again(
     finally:
         manifest.unlink() if before is None else manifest.write_text(before)
     plain = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    found = subprocess.run(
-        [tmp_path / "bin" / "flexpm", "--version"], env=plain, capture_output=True, text=True
-    )
+    found = captured([tmp_path / "bin" / "flexpm", "--version"], env=plain)
     assert (found.returncode, found.stdout.split()[0]) == (0, "flexpm"), found.stderr
     script = ROOT / "cmake" / "Uninstall.cmake"
     removal = ["cmake", f"-DMANIFEST={tmp_path / 'manifest'}", "-P", str(script)]
@@ -149,9 +142,7 @@ def test_a_package_is_not_compiled_without_its_optimiser(tmp_path: Path) -> None
         "PIP_RETRIES": "0",
         "PIP_NO_CACHE_DIR": "1",
     }
-    done = subprocess.run(
-        [str(ROOT / "scripts/setup")], env=surroundings, capture_output=True, text=True, timeout=120
-    )
+    done = captured([str(ROOT / "scripts/setup")], env=surroundings, timeout=120)
     assert done.returncode == 1
     assert "setup: optimiser = DFO-LS" in done.stderr.splitlines()[-1]
     assert not (tmp_path / "build" / "CMakeCache.txt").exists()

@@ -5,17 +5,17 @@ import ast
 import math
 import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from processes import captured
 
 TUTORIALS = Path(__file__).resolve().parents[3] / "scripts" / "tutorials"
 
 
 def printed(name, package_parent, *arguments):
-    return subprocess.run(
+    return captured(
         [sys.executable, str(TUTORIALS / name), *arguments],
         env={
             **os.environ,
@@ -23,8 +23,6 @@ def printed(name, package_parent, *arguments):
             "OMP_NUM_THREADS": "1",
             "MPLBACKEND": "Agg",
         },
-        capture_output=True,
-        text=True,
         check=True,
     ).stdout
 

@@ -14,6 +14,7 @@ import time
 from pathlib import Path
 
 import pytest
+from processes import captured
 from sample_snapshot import read_vtu
 
 import flexpm
@@ -150,7 +151,7 @@ def test_the_exit_code_is_right_without_stderr():
 def test_the_surroundings_do_not_matter(tmp_path, change):
     surroundings = {k: v for k, v in (ENVIRONMENT | change).items() if v is not None}
     command = [*COMMAND, "run", *SOON, "--out", str(tmp_path)]
-    done = subprocess.run(command, env=surroundings, capture_output=True, text=True)
+    done = captured(command, env=surroundings)
     assert done.returncode == 3, done.stderr
     assert "no strength was found" in one_line(done.stderr)
 
@@ -158,9 +159,7 @@ def test_the_surroundings_do_not_matter(tmp_path, change):
 def test_the_command_needs_no_path(launcher):
     command = [shutil.which(launcher[0]), *launcher[1:], "elastic", *TINY]
     surroundings = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    done = subprocess.run(
-        command, env=surroundings | {"PATH": ""}, capture_output=True, text=True, check=False
-    )
+    done = captured(command, env=surroundings | {"PATH": ""})
     assert (done.returncode, done.stderr) == (0, "")
     assert "Young's modulus" in done.stdout
 
@@ -372,9 +371,7 @@ def test_a_python_that_is_not_debians_is_named(tmp_path, program, kind):
     surroundings = ENVIRONMENT | {"PYTHONPATH": str(tmp_path / "alone")}
     if "-c" in program:
         del surroundings["FLEXPM_DEFER"]
-    done = subprocess.run(
-        [tmp_path / "bin" / "python3", *program], env=surroundings, capture_output=True, text=True
-    )
+    done = captured([tmp_path / "bin" / "python3", *program], env=surroundings)
     assert done.returncode == 1
     line = done.stderr.splitlines()[-1]
     if "-m" in program:

@@ -7,11 +7,11 @@ import math
 
 import numpy as np
 import pytest
-
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
+from refusals import failure, refusal
+from scenes import fresh
 
-from flexpm.errors import InputError, SimulationError
+import flexpm
 from flexpm.materials import load
 from flexpm.results import doubts
 from flexpm.rigs.part_rig import PartRig
@@ -50,8 +50,7 @@ def cube() -> flexpm.specimens.space.specimen.SolidSpecimen:
 
 def fallen(rock: flexpm.Specimen, model: str, **options) -> float:
     """Velocity of an unheld specimen over g t."""
-    yade.O.reset()
-    built = flexpm.build(rock, model=model, dynamic=True, gravity=GRAVITY, **options)
+    built = fresh(rock, model=model, dynamic=True, gravity=GRAVITY, **options)
     built.run(1000)
     last = built.snapshot().positions.shape[1] - 1
     speeds = [yade.O.bodies[body].state.vel[last] for body in built.solver.bodyIds]
@@ -71,12 +70,11 @@ def test_what_falls_freely_gains_g(shape, model, request):
 
 def slid(model: str, **options) -> tuple[float, float]:
     """How far a block slides down a joint in 2 ms, and a t^2 / 2 of a free one [m]."""
-    yade.O.reset()
     slope = math.tan(ANGLE)
     low, beside, drop = 0.25 * HEIGHT, 1e-3, WIDTH * slope
     specimen = flexpm.Specimen.rectangle(WIDTH, HEIGHT + drop, thickness=0.01, seed=3)
     ends = [[x, low + x * slope] for x in (-beside, WIDTH + beside)]
-    built = flexpm.build(
+    built = fresh(
         specimen.with_joints({"slope": [ends]}),
         load(None, model).with_set(JOINT, model),
         model,
@@ -119,20 +117,17 @@ def test_the_default_follows_from_the_masses_in_run_and_build_alike(square):
     for dynamic, expected in ((False, 0.7), (True, 0.0)):
         assert spec_of(dynamic=dynamic).local_damping == expected
         for model in ("flexible", "jcfpm"):
-            yade.O.reset()
-            assert flexpm.build(square, model=model, dynamic=dynamic).damping == expected
+            assert fresh(square, model=model, dynamic=dynamic).damping == expected
 
 
 @pytest.mark.parametrize("test", ["sonic", ELASTIC])
 def test_tests_without_damping_refuse_it(test):
-    with pytest.raises(InputError, match=f"damping = 0.0, must not be given for {test}"):
-        spec_of(test, damping=0.0)
+    refusal(f"damping = 0.0, must not be given for {test}", spec_of, test, damping=0.0)
 
 
 @pytest.mark.parametrize("value", [-0.1, 1.0, math.nan, "a", True])
 def test_damping_out_of_range_is_refused(value):
-    with pytest.raises(InputError, match="damping = "):
-        spec_of(damping=value)
+    refusal("damping = ", spec_of, damping=value)
 
 
 def test_keys_of_before_stay_and_runs_with_real_masses_have_others():
@@ -160,8 +155,7 @@ def test_gravity_against_damping_is_a_doubt():
 
 
 def test_a_rig_tells_of_gravity_against_damping(square):
-    yade.O.reset()
-    rig = PartRig(flexpm.build(square, dynamic=True, gravity=9.81, damping=0.7))
+    rig = PartRig(fresh(square, dynamic=True, gravity=9.81, damping=0.7))
     low = rig.hold(where=lambda x, y: y < 0.1 * SIDE)
     top = rig.hold(where=lambda x, y: y > 0.9 * SIDE)
     rig.drive([top], (0.0, -1.0), against=[low])
@@ -210,9 +204,8 @@ def test_a_solid_with_real_masses_has_the_peak_of_scaled_ones(model, off):
 @pytest.mark.parametrize(("shape", "unit"), [("square", 1e-4), ("cube", 2e-4)])
 def test_a_velocity_rises_from_the_one_before_it(shape, unit, request):
     """A later loading with real masses: on at the same velocity, back from the slowest one."""
-    yade.O.reset()
     rock = request.getfixturevalue(shape)
-    rig = flexpm.rig(flexpm.build(rock, model="rigid", dynamic=True))
+    rig = flexpm.rig(fresh(rock, model="rigid", dynamic=True))
     factors = []
     for strain in (2.0, 4.0, 3.0):
         before = len(rig.record)
@@ -223,7 +216,5 @@ def test_a_velocity_rises_from_the_one_before_it(shape, unit, request):
 
 
 def test_confining_without_damping_is_refused_with_its_remedy(square):
-    yade.O.reset()
-    rig = flexpm.rig(flexpm.build(square, "augig-table7", "rigid", dynamic=True))
-    with pytest.raises(SimulationError, match="damping = 0, take 0.2 or above"):
-        rig.confine(4e6)
+    rig = flexpm.rig(fresh(square, "augig-table7", "rigid", dynamic=True))
+    failure("damping = 0, take 0.2 or above", rig.confine, 4e6)

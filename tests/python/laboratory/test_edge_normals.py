@@ -12,9 +12,10 @@ import math
 
 import numpy as np
 import pytest
-
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
+from scenes import fresh
+
+import flexpm
 
 SIDE, THICKNESS = 2e-3, 0.01
 GRAVITY = 9.81
@@ -31,9 +32,8 @@ def two_cells(offset: float) -> flexpm.Specimen:
 @pytest.mark.parametrize("offset", [0.0, 2.0, 4.0, 8.0])
 def test_a_level_boundary_has_its_strength_wherever_the_centres_lie(offset):
     """Flexible cells whose ends are held; tests of the kernel have rigid ones, and shear."""
-    yade.O.reset()
     rock = flexpm.materials.load("augig-table7", "flexible")
-    rig = flexpm.PartRig(flexpm.build(two_cells(offset * SIDE), rock))
+    rig = flexpm.PartRig(fresh(two_cells(offset * SIDE), rock))
     base = rig.hold(where=lambda _, y: y < -0.999 * SIDE)
     head = rig.hold(where=lambda _, y: y > 0.999 * SIDE)
     rig.drive(head, (0.0, 1.0), against=base)

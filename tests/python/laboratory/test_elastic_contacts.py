@@ -7,9 +7,9 @@ import math
 
 import numpy as np
 import pytest
-
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
+
+import flexpm
 
 GRAVITY = 9.81
 #: A rock that never breaks.

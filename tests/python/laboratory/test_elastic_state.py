@@ -5,18 +5,18 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from refusals import refusal
+from scenes import fresh
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
-import yade
+import flexpm
 
 WIDTH, HEIGHT, THICKNESS = 0.012, 0.018, 0.01
 AREA = WIDTH * THICKNESS
 
 
 def made(model: str = "flexible", **options: object) -> flexpm.PartRig:
-    yade.O.reset()
     specimen = flexpm.Specimen.rectangle(WIDTH, HEIGHT, THICKNESS, seed=3)
-    return flexpm.PartRig(flexpm.build(specimen, model=model, **options))
+    return flexpm.PartRig(fresh(specimen, model=model, **options))
 
 
 def between_platens(model: str = "flexible", **options: object):
@@ -98,13 +98,12 @@ def test_weight_is_borne_by_what_holds():
 
 
 def test_a_notch_opens_and_closes_as_the_load_has_it():
-    yade.O.reset()
     line = [(0.0, 0.5 * HEIGHT), (0.5 * WIDTH, 0.5 * HEIGHT)]
     specimen = flexpm.Specimen.rectangle(WIDTH, HEIGHT, THICKNESS, seed=3).with_joints(
         {"notch": line}
     )
     material = flexpm.materials.load("augig-table7").with_set("joint.notch.open=true")
-    rig = flexpm.PartRig(flexpm.build(specimen, material))
+    rig = flexpm.PartRig(fresh(specimen, material))
     rig.hold(box=((0.0, 0.0), (WIDTH, 1e-5)))
     head = rig.hold(box=((0.0, HEIGHT - 1e-5), (WIDTH, HEIGHT)))
     rig.drive(head, (0.0, 1.0))
@@ -139,27 +138,19 @@ def test_the_run_goes_on_to_the_same_bits():
 def test_a_free_motion_is_named_in_one_line():
     rig = made()
     floor, top = rig.platen(0), rig.platen(2)
-    with pytest.raises(flexpm.InputError, match="along x.*hold nodes") as refused:
-        rig.elastic({top: 1e6})
-    assert "\n" not in str(refused.value)
-    with pytest.raises(flexpm.InputError, match="driven parts = none"):
-        rig.elastic(way=1e-6)
-    with pytest.raises(flexpm.InputError, match="pressure on a part = -1"):
-        rig.elastic({top: -1.0})
-    with pytest.raises(flexpm.InputError, match="must be a table"):
-        rig.elastic([top])
+    refusal("along x.*hold nodes", rig.elastic, {top: 1e6})
+    refusal("driven parts = none", rig.elastic, way=1e-6)
+    refusal("pressure on a part = -1", rig.elastic, {top: -1.0})
+    refusal("must be a table", rig.elastic, [top])
     rig.drive(top, (0.0, -1.0), against=floor)
-    with pytest.raises(flexpm.InputError, match="is driven, must not be"):
-        rig.elastic({top: 1e6})
-    with pytest.raises(flexpm.InputError, match="must be left out beside a load"):
-        rig.elastic(way=1e-6, load=1.0)
+    refusal("is driven, must not be", rig.elastic, {top: 1e6})
+    refusal("must be left out beside a load", rig.elastic, way=1e-6, load=1.0)
 
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_a_beam_is_as_stiff_as_when_it_is_loaded(model):
-    yade.O.reset()
     beam = flexpm.Specimen.rectangle(0.05, 0.012, THICKNESS, seed=1)
-    rig = flexpm.PartRig(flexpm.build(beam, model=model))
+    rig = flexpm.PartRig(fresh(beam, model=model))
     rollers = [rig.support((x, 0.0)) for x in (0.005, 0.045)]
     pin = rig.support((0.025, 0.012), pinned=True)
     rig.drive(pin, (0.0, -1.0), against=rollers)
@@ -188,8 +179,7 @@ def test_the_scale_of_a_loading_is_that_stiffness_whichever_part_is_pinned():
     beam = flexpm.Specimen.rectangle(length, height, 0.01, seed=1)
     found = []
     for pinned in range(4):
-        yade.O.reset()
-        rig = flexpm.PartRig(flexpm.build(beam))
+        rig = flexpm.PartRig(fresh(beam))
         places = [(0.5 * (length + side * span), 0.0) for side in (-1, 1)]
         places += [(0.5 * (length + side * inner), height) for side in (-1, 1)]
         parts = [rig.support(place, pinned=number == pinned) for number, place in enumerate(places)]

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from refusals import refusal
+from scenes import fresh
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
-import yade
-
+import flexpm
 from flexpm.errors import InputError
 
 WIDTH, HEIGHT, THICKNESS = 0.012, 0.018, 0.01
@@ -16,13 +16,12 @@ AREA = WIDTH * THICKNESS
 
 
 def made(model: str = "flexible", kind: str = "rectangle", **options: object):
-    yade.O.reset()
     specimen = (
         flexpm.Specimen.rectangle(WIDTH, HEIGHT, THICKNESS, seed=3)
         if kind == "rectangle"
         else flexpm.Specimen.disc(HEIGHT, THICKNESS, seed=3)
     )
-    return flexpm.rig(flexpm.build(specimen, model=model), **options)
+    return flexpm.rig(fresh(specimen, model=model), **options)
 
 
 def moved(state: flexpm.Snapshot) -> np.ndarray:
@@ -116,21 +115,17 @@ def test_a_load_beside_a_pressure_is_that_of_the_steps():
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_a_piece_that_is_free_to_move_is_named_in_one_line(model):
-    yade.O.reset()
     cut = [(0.0, 0.5 * HEIGHT), (WIDTH, 0.5 * HEIGHT)]
     specimen = flexpm.Specimen.rectangle(WIDTH, HEIGHT, THICKNESS, seed=3)
     material = flexpm.materials.load("augig-table7").with_set("joint.slit.open=true")
-    built = flexpm.build(specimen.with_joints({"slit": cut}), material, model=model)
+    built = fresh(specimen.with_joints({"slit": cut}), material, model=model)
     rig = flexpm.rig(built, tension=True)
-    with pytest.raises(InputError, match="elastic: .*along x") as refused:
-        rig.elastic(way=1e-7)
-    assert "\n" not in str(refused.value)
+    refusal("elastic: .*along x", rig.elastic, way=1e-7)
 
 
 def test_a_disc_lies_against_ever_more_of_its_plates():
-    yade.O.reset()
     fine = flexpm.Specimen.disc(HEIGHT, THICKNESS, diameters=(4e-4, 6e-4), seed=3)
-    rig = flexpm.rig(flexpm.build(fine))
+    rig = flexpm.rig(fresh(fine))
     least, little, more = (rig.elastic(way=way) for way in (1e-9, 1e-6, 1.6e-4))
     # nothing pulls across the gaps before the rim: a disc on its tips is linear
     assert little.load == pytest.approx(1e3 * least.load, rel=1e-9)
@@ -169,5 +164,4 @@ def test_what_it_cannot_do_is_refused_in_one_line():
             asked()
         assert str(refused.value).startswith(told), str(refused.value)
     disc = made("flexible", "disc")
-    with pytest.raises(InputError, match="elastic: pressure on a disc = 1000000 Pa"):
-        disc.elastic(1e6)
+    refusal("elastic: pressure on a disc = 1000000 Pa", disc.elastic, 1e6)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 
 import pytest
+from refusals import refused_command
 
 from flexpm.cli import main as cli
 from flexpm.runs.output import KINDS, RESULT
@@ -41,17 +42,13 @@ def test_results_of_another_kind_are_not_replaced(capsys, tmp_path, commands, fi
     out.mkdir()
     (out / name).write_text("{}")
     (out / "report.html").write_text("of others")
-    assert cli.main([*commands[then], "--out", str(out)]) == 2
-    errors = capsys.readouterr().err
-    assert errors.count("\n") == 1
-    assert "holds results of" in errors
+    refused_command(capsys, "holds results of", *commands[then], "--out", out)
     assert contents(out) == {name: b"{}", "report.html": b"of others"}
 
 
 def test_packings_do_not_go_into_the_folder_of_a_run_that_has_begun(capsys, tmp_path, commands):
     (tmp_path / "checkpoint.json").write_text("{}")
-    assert cli.main([*commands["packings"], "--out", str(tmp_path)]) == 2
-    assert "holds results of run" in capsys.readouterr().err
+    refused_command(capsys, "holds results of run", *commands["packings"], "--out", tmp_path)
 
 
 @pytest.mark.parametrize("discard", [False, True])
@@ -72,9 +69,8 @@ def test_a_result_of_another_run_is_replaced_if_that_is_asked_for(capsys, tmp_pa
     assert cli.main([*commands["elastic"], *out]) == 0
     assert cli.main([*commands["elastic"], *out]) == 0  # the same one again
     before = contents(tmp_path)
-    assert cli.main([*commands["elastic"], "--model", "rigid", *out]) == 2
-    assert cli.main([*commands["run"], *out]) == 2
-    assert "of another run, which would be replaced" in capsys.readouterr().err
+    refused_command(capsys, "", *commands["elastic"], "--model", "rigid", *out)
+    refused_command(capsys, "of another run, which would be replaced", *commands["run"], *out)
     assert contents(tmp_path) == before
     assert cli.main([*commands["run"], "--discard-checkpoint", *out]) == 3
     assert json.loads((tmp_path / RESULT).read_text())["test"] == "tension"

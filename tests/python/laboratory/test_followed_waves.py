@@ -12,10 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
+from refusals import refusal
+from scenes import fresh
 
+import flexpm
 from flexpm.arrays import FloatArray
 from flexpm.errors import InputError, SimulationError
 from flexpm.results import waves
@@ -62,9 +63,8 @@ def bar_of(
     origin: float | None = None,
 ) -> Bar:
     """Drive the low end of a bar, hold the high one or leave it free."""
-    yade.O.reset()
     rock = flexpm.materials.load("augig-table7").with_set(NEVER, model)
-    rig = flexpm.PartRig(flexpm.build(specimen, rock, model, dynamic=True))
+    rig = flexpm.PartRig(fresh(specimen, rock, model, dynamic=True))
     sizes = sizes_of(specimen)
     length = sizes[-1]
     end = 1e-9 if model == "flexible" else 0.67 * grain
@@ -282,11 +282,10 @@ def test_the_far_end_sends_it_back(dimension, free):
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 @pytest.mark.parametrize(("dimension", "seed"), [(2, 1), (2, 3), (2, 5), (3, 1)])
 def test_a_bar_with_a_free_end_is_followed_and_saved(dimension, model, seed, tmp_path):
-    yade.O.reset()
     specimen = flexpm.Specimen.rectangle(0.008, 0.016, 0.01, diameters=(2e-3, 4e-3), seed=seed)
     if dimension == 3:
         specimen = flexpm.Specimen.box(0.008, 0.008, 0.016, diameters=(2e-3, 4e-3), seed=seed)
-    built = flexpm.build(specimen, model=model, dynamic=True)
+    built = fresh(specimen, model=model, dynamic=True)
     rig = flexpm.PartRig(built, out=tmp_path, frames=2, report=False)
     low = rig.hold(where=lambda *at: at[-1] < 2e-3)
     rig.drive(low, (0.0, 1.0) if dimension == 2 else (0.0, 0.0, 1.0))
@@ -299,8 +298,7 @@ def test_a_bar_with_a_free_end_is_followed_and_saved(dimension, model, seed, tmp
     assert (result.status, result.tensile_cracks) == ("ok", 0)
     # what needs a rate has none: nothing resists
     along = "xyz"[dimension - 1]
-    with pytest.raises(InputError, match=f"of the supports = 0 N, .* moves along {along}"):
-        rig.load()
+    refusal(f"of the supports = 0 N, .* moves along {along}", rig.load)
 
 
 def test_a_history_that_no_step_can_follow_is_refused_and_its_rows_may_share_steps():
@@ -321,11 +319,10 @@ def test_a_history_that_no_step_can_follow_is_refused_and_its_rows_may_share_ste
 def test_a_loading_with_real_masses_gives_grains_no_velocity(dimension, model, kind):
     """Ends, plates and held nodes: after its first step what lies in the middle stands still."""
     for rig_of in (flexpm.rig, flexpm.PartRig):
-        yade.O.reset()
         specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01, seed=1)
         if dimension == 3:
             specimen = flexpm.Specimen.box(0.012, 0.012, 0.024, seed=1)
-        rig = rig_of(flexpm.build(specimen, model=model, dynamic=True))
+        rig = rig_of(fresh(specimen, model=model, dynamic=True))
         if isinstance(rig, flexpm.PartRig):
             floor, top = rig.platen(0, friction=0.3), rig.platen(2, friction=0.3)
             rig.drive(top, (0.0, -1.0) if dimension == 2 else (0.0, 0.0, -1.0), against=floor)

@@ -11,10 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from refusals import refusal
 
 import flexpm
 from flexpm.cli.main import main as cli
-from flexpm.errors import InputError
 from flexpm.laboratory import halving
 from flexpm.results.result import Result
 from flexpm.rigs.rig import TestRig as Rig
@@ -119,8 +119,7 @@ def test_auto_is_a_rate_of_one_that_is_halved_five_times():
     ],
 )
 def test_wrong_rates_are_refused(small, test, options, message):
-    with pytest.raises(InputError, match=message):
-        flexpm.run(test, small, **options)
+    refusal(message, flexpm.run, test, small, **options)
 
 
 def test_each_loading_has_the_bits_of_a_run_at_its_rate(small):
@@ -234,8 +233,7 @@ def test_a_run_killed_in_a_slower_loading_goes_on_to_the_same_bits(small, tmp_pa
 def test_a_folder_with_another_bound_is_refused(small, tmp_path):
     options = {"model": "rigid", "rate": 4.0, "max_strain": 1e-5, "out": tmp_path}
     flexpm.run("uniaxial", small, **options)
-    with pytest.raises(InputError, match=r"halvings = None there, 5 here"):
-        flexpm.run("uniaxial", small, **options, halvings=5)
+    refusal(r"halvings = None there, 5 here", flexpm.run, "uniaxial", small, **options, halvings=5)
 
 
 def test_frames_are_those_of_the_last_loading(small, tmp_path):

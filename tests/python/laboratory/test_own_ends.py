@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
+from refusals import failure, refusal
+from scenes import fresh
 
-from flexpm.errors import InputError, SimulationError
+import flexpm
+from flexpm.errors import InputError
 from flexpm.report.curves import peak_place
 from flexpm.results import measures
 from flexpm.results.record import COLUMNS, Curve
@@ -58,9 +59,8 @@ def test_what_turns_and_what_has_a_length_tell_it_in_their_units(tmp_path):
     rig = pressed(False, "rigid", None, length=0.012, area=8e-5, strength=1e6)
     rig.load(WAITING)
     assert "still rose at axial strain = " in rig.warnings[-1]
-    yade.O.reset()
     beam = flexpm.Specimen.rectangle(0.03, 0.008, 0.01, seed=1)
-    rig = flexpm.PartRig(flexpm.build(beam, model="rigid"))
+    rig = flexpm.PartRig(fresh(beam, model="rigid"))
     rig.hold(box=((0.0, 0.0), (0.006, 0.008)))
     rig.turn(rig.hold(where=lambda x, y: x > 0.024), strength=1e-3)
     rig.load(WAITING)
@@ -69,9 +69,8 @@ def test_what_turns_and_what_has_a_length_tell_it_in_their_units(tmp_path):
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_an_indentation_comes_to_its_peak_by_default(model, tmp_path):
-    yade.O.reset()
     block = flexpm.Specimen.rectangle(0.02, 0.012, 0.01, diameters=(1e-3, 2e-3), seed=1)
-    rig = flexpm.PartRig(flexpm.build(block, model=model), out=tmp_path, report=False)
+    rig = flexpm.PartRig(fresh(block, model=model), out=tmp_path, report=False)
     base, punch = rig.platen(0, friction=0.3), rig.support((0.01, 0.012), 0.003)
     rig.drive(punch, (0.0, -1.0), against=base)
     rig.load(WAITING)
@@ -84,9 +83,8 @@ def test_an_indentation_comes_to_its_peak_by_default(model, tmp_path):
 
 @pytest.mark.long
 def test_the_indentation_of_a_solid_comes_to_its_peak_by_default():
-    yade.O.reset()
     box = flexpm.Specimen.box(0.012, 0.012, 0.008, seed=1)
-    rig = flexpm.SolidPartRig(flexpm.build(box, "augig3d-calibrated"))
+    rig = flexpm.SolidPartRig(fresh(box, "augig3d-calibrated"))
     base = rig.platen(0)
     punch = rig.support((0.006, 0.006, 0.008), (0.003, 0.003, 0.002))
     rig.drive(punch, (0.0, 0.0, -1.0), against=base)
@@ -97,9 +95,8 @@ def test_the_indentation_of_a_solid_comes_to_its_peak_by_default():
 
 @pytest.mark.long
 def test_a_point_load_across_a_core_comes_to_its_peak_by_default():
-    yade.O.reset()
     core = flexpm.Specimen.cylinder(0.01, 0.012, diameters=(2e-3, 3e-3), seed=1)
-    rig = flexpm.SolidPartRig(flexpm.build(core, "augig3d-calibrated-rigid", "rigid"))
+    rig = flexpm.SolidPartRig(fresh(core, "augig3d-calibrated-rigid", "rigid"))
     tips = [
         rig.support(
             (x, 0.0, 0.006), (0.003, 0.003, 0.003), normal=(-x / abs(x), 0, 0), friction=0.3
@@ -114,9 +111,8 @@ def test_a_point_load_across_a_core_comes_to_its_peak_by_default():
 
 def test_supports_that_let_a_core_turn_are_refused_with_the_motion():
     """A diametral point load of smooth supports: round-off resists it."""
-    yade.O.reset()
     core = flexpm.Specimen.cylinder(0.01, 0.012, diameters=(2e-3, 3e-3), seed=1)
-    rig = flexpm.SolidPartRig(flexpm.build(core, model="rigid"))
+    rig = flexpm.SolidPartRig(fresh(core, model="rigid"))
     size = (0.003, 0.003, 0.003)
     one, two = (
         rig.support((x, 0.0, 0.006), size, normal=(-x / abs(x), 0, 0)) for x in (-0.005, 0.005)
@@ -150,11 +146,9 @@ def test_load_takes_a_loading_alone_and_a_watch_no_stage(tmp_path):
     for solid in (False, True):
         for out in (None, tmp_path / str(solid)):
             rig = pressed(solid, "rigid", out)
-            with pytest.raises(InputError, match=r"load: loading = 5, must be a flexpm\.Loading"):
-                rig.load(5)
+            refusal(r"load: loading = 5, must be a flexpm\.Loading", rig.load, 5)
             rig.watch = lambda rig: rig.strain_to(1e-6)
-            with pytest.raises(SimulationError, match="watch: the callback called strain_to"):
-                rig.strain_to(1e-7)
+            failure("watch: the callback called strain_to", rig.strain_to, 1e-7)
             rig.watch = None
 
 
@@ -166,5 +160,4 @@ def test_a_gauge_is_read_before_the_record_begins(solid):
     assert rig.reading("sag") == 0.0 and len(rig.record) == 0
     rig.strain_to(1e-7)
     assert rig.reading("sag") == pytest.approx(rig.record["sag"][-1], rel=1e-9)
-    with pytest.raises(InputError, match="reading: gauge = 'sagg', unknown"):
-        rig.reading("sagg")
+    refusal("reading: gauge = 'sagg', unknown", rig.reading, "sagg")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Punch-through shear: bridges that are one joint, rock, and what is refused."""
+"""Punch-through shear in 2D and 3D: bridges that are one joint, rock, refusals."""
 
 from __future__ import annotations
 
@@ -7,14 +7,17 @@ import json
 
 import numpy as np
 import pytest
+from refusals import refusal, refused_command
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
-
+import flexpm
+from flexpm import Specimen
 from flexpm.cli.main import main
 from flexpm.errors import InputError
 from flexpm.laboratory.carrying_out import carry_out
 from flexpm.laboratory.plan import plan_run
+from flexpm.materials.material import default_name
 from flexpm.runs.run_spec import RunSpec
+from flexpm.specimens.space.notch import notched
 
 WIDTH, HEIGHT, THICKNESS = 0.04, 0.024, 0.01
 NOTCH, DISTANCE = 0.005, 0.016
@@ -135,8 +138,7 @@ def test_a_study_varies_its_own_options(tmp_path, capsys):
 )
 def test_what_has_no_sense_is_refused(options, message):
     material = flexpm.materials.load(None, "rigid")
-    with pytest.raises(InputError, match=message):
-        RunSpec.from_options("punch", {"model": "rigid"} | options, material)
+    refusal(message, RunSpec.from_options, "punch", {"model": "rigid"} | options, material)
 
 
 def test_the_library_takes_its_own_options():
@@ -152,5 +154,64 @@ def test_the_library_takes_its_own_options():
 
 def test_distance_is_for_punch_alone(tmp_path, capsys):
     run = ["run", "shear", "--distance", "0.01", "--out", str(tmp_path)]
-    assert main(run) == 2
-    assert "distance = 0.01 m, must not be given for shear" in capsys.readouterr().err
+    refused_command(capsys, "distance = 0.01 m, must not be given for shear", *run)
+
+
+#: Two hundred grains.
+BLOCK, DEPTH = (0.03, 0.008, 0.02), 0.008
+SLIT, APART = 0.003, 0.0115
+
+
+@pytest.fixture(scope="module")
+def block():
+    return Specimen.box(*BLOCK, seed=1)
+
+
+def test_notches_come_from_below_and_from_above(block):
+    places = [0.5 * (BLOCK[0] + side * APART) for side in (-1.0, 1.0)]
+    asked = [
+        (x, BLOCK[2] - SLIT if above else SLIT, above) for x in places for above in (False, True)
+    ]
+    cut = notched(block, asked)
+    assert cut.cells.volumes.sum() == pytest.approx(block.cells.volumes.sum(), rel=1e-12)
+    assert cut.depths() == pytest.approx([SLIT] * 4, abs=0.4 * block.mean_diameter)
+    lines = cut.lines()
+    assert lines[:, 0, 1].tolist() == [0.0, BLOCK[2], 0.0, BLOCK[2]]
+    assert np.abs(lines[:, 1, 1] - lines[:, 0, 1]) == pytest.approx(cut.depths())
+    assert (lines[:, :, 0] == np.repeat(places, 2)[:, None]).all()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("model", "pressure"), [("flexible", 0.0), ("rigid", 10e6)])
+def test_both_bridges_bear_the_load(block, model, pressure):
+    asked = {"notch": SLIT, "distance": APART, "max_displacement": 1e-4}
+    result = flexpm.run(
+        "punch", block, default_name(model), model, rate=4.0, confinement=pressure, **asked
+    )
+    assert result.energy_error < 0.01
+    assert result.notch_depth == pytest.approx(SLIT, abs=0.4 * block.mean_diameter)
+    area = 2.0 * DEPTH * (BLOCK[2] - 2.0 * result.notch_depth)
+    curve = result.curve
+    assert curve["load"] == pytest.approx(area * curve["axial_stress"])
+    assert np.array_equal(curve["shear_stress"], curve["axial_stress"])
+    assert result.peak_load == pytest.approx(area * curve["axial_stress"].max())
+    assert 5e6 < curve["axial_stress"].max() < 120e6
+    rising = slice(1, int(np.argmax(curve["axial_stress"])))
+    assert np.median(curve["end_mismatch"][rising]) < 0.05
+
+
+@pytest.mark.long
+def test_a_pressure_of_the_walls_bears_more(block):
+    asked = {
+        "notch": SLIT,
+        "distance": APART,
+        "max_displacement": 2e-4,
+        "rate": 4.0,
+    }
+    low, high = (
+        flexpm.run(
+            "punch", block, default_name("rigid"), "rigid", confinement=pressure, **asked
+        ).peak_load
+        for pressure in (1e6, 12e6)
+    )
+    assert high > 1.5 * low

@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Half a disc in three-point bending: its outline, its run, its toughness, what is refused."""
+"""Half a disc in three-point bending, in 2D and 3D: outline, run, toughness, refusals."""
 
 from __future__ import annotations
 
 import dataclasses
 import json
+import math
 
 import numpy as np
 import pytest
+from refusals import refusal, refused_command
+from scenes import fresh
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
-
+import flexpm
+from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.kinds import toughness
 from flexpm.laboratory.part_tests import notch_depth, prepared
+from flexpm.materials.material import default_name
 from flexpm.report import tables
 from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.spec import SpecimenSpec
@@ -51,8 +55,7 @@ def test_half_a_disc_has_its_outline_its_area_and_its_seed(half):
 
 
 def test_half_a_disc_is_none_of_discs(half):
-    with pytest.raises(InputError, match="sawn grains"):
-        flexpm.build(half, model="jcfpm")
+    refusal("sawn grains", flexpm.build, half, model="jcfpm")
     with pytest.raises(InputError, match="largest diameter = 0.012 m, must be <= half"):
         flexpm.Specimen.half_disc(2.0 * RADIUS, 0.01, diameters=(0.011, 0.012))
 
@@ -131,14 +134,9 @@ def test_sizes_follow_from_the_diameter_and_keep_to_the_range():
         ({"notch": 0.0}, "run: notch = 0 m"),
         ({"notch": 0.05}, "run: notch = 0.05 m, must be < 0.04"),
     ):
-        with pytest.raises(InputError) as refused:
-            spec_of(**wrong)
-        assert str(refused.value).startswith(message)
-        assert "\n" not in str(refused.value)
-    with pytest.raises(InputError, match="model of scb = 'inner'"):
-        spec_of("inner")
-    with pytest.raises(InputError, match="must be a half-disc for scb"):
-        dataclasses.replace(spec, specimen=SpecimenSpec("disc"))
+        assert refusal("", spec_of, **wrong).startswith(message)
+    refusal("model of scb = 'inner'", spec_of, "inner")
+    refusal("must be a half-disc for scb", dataclasses.replace, spec, specimen=SpecimenSpec("disc"))
 
 
 def test_a_notch_that_is_cut_elsewhere_has_no_toughness_out_of_the_range():
@@ -174,5 +172,58 @@ def test_the_command_runs_compares_and_repeats_it(tmp_path, capsys):
         (["--width", "0.1"], "width = 0.1 m, must not be given for a half-disc"),
         (["--notch", "0.004"], "notch = 0.004 m, must be 0.008 to 0.012 m"),
     ):
-        assert cli.main(["run", "scb", *ARGUMENTS, *wrong]) == 2
-        assert message in capsys.readouterr().err
+        refused_command(capsys, message, "run", "scb", *ARGUMENTS, *wrong)
+
+
+#: Some hundred grains.
+DIAMETER, DEPTH = 0.024, 0.008
+SPAN, NOTCH = 0.6 * DIAMETER, 0.25 * DIAMETER
+
+
+@pytest.fixture(scope="module")
+def solid_half():
+    return Specimen.solid_half_disc(DIAMETER, DEPTH, seed=1)
+
+
+def test_half_a_disc_is_flat_below_and_has_half_its_volume(solid_half, tmp_path):
+    outline = solid_half.outline()
+    assert solid_half.spec.volume == pytest.approx(math.pi / 8.0 * DIAMETER**2 * DEPTH)
+    assert outline.volume == pytest.approx(solid_half.spec.volume, rel=1e-12)
+    assert solid_half.cells.volumes.sum() == pytest.approx(solid_half.spec.volume, rel=1e-12)
+    corners = solid_half.cells.vertices
+    assert corners.min(axis=0) == pytest.approx([-0.5 * DIAMETER, 0.0, 0.0], rel=0.01, abs=1e-12)
+    assert corners.max(axis=0) == pytest.approx([0.5 * DIAMETER, DEPTH, 0.5 * DIAMETER], rel=0.01)
+    # as much of it on either side, grains no larger near the arc than within
+    assert np.abs(solid_half.spheres[:, 0].mean()) < 0.05 * DIAMETER
+    assert solid_half.spheres[:, 2].min() > 0.0
+    solid_half.save(tmp_path / "half.json")
+    again = Specimen.load_solid(tmp_path / "half.json")
+    assert again.kind == "solid-half-disc"
+    assert np.array_equal(again.cells.vertices, solid_half.cells.vertices)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_a_crack_runs_up_from_the_notch(solid_half, model):
+    result = flexpm.run("scb", solid_half, default_name(model), model, rate=4.0)
+    assert result.energy_error < 0.02
+    depth, top = result.notch_depth, 0.5 * DIAMETER
+    assert depth == pytest.approx(NOTCH, abs=0.35 * solid_half.mean_diameter)
+    area = 2.0 * DEPTH * (top - depth) ** 2 / (3.0 * SPAN)
+    assert result.peak_load == pytest.approx(area * result.peak_stress)
+    sizes = {"span": SPAN, "radius": top, "thickness": DEPTH, "notch": depth}
+    told = toughness.half_disc_toughness(result.peak_load, **sizes)
+    assert result.fracture_toughness == pytest.approx(told)
+    assert 0.3e6 < result.fracture_toughness < 5e6
+    places = np.array([(one.x, one.z) for one in result.cracks])
+    assert np.abs(places[:, 0]).max() < 0.25 * DIAMETER
+    assert places[:, 1].max() > 0.75 * top
+    assert result.tensile_cracks > 10 * result.shear_cracks
+    curve = result.curve
+    assert curve["cmod"][-1] > 10.0 * curve["cmod"][1]
+    loaded = curve["load"] > 0.2 * result.peak_load
+    assert sorted(curve["end_mismatch"][loaded])[int(0.5 * loaded.sum())] < 0.1
+
+
+def test_no_rig_of_two_ends_holds_half_a_disc(solid_half):
+    refusal("rig: specimen = solid-half-disc, must be one of", flexpm.rig, fresh(solid_half))

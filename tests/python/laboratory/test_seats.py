@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts on a spherical seat: a beam on long supports that turn with it; columns; folders."""
+"""Parts on a spherical seat, in 2D and 3D: they turn, bear no moment; folders, refusals."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ import json
 
 import numpy as np
 import pytest
-
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
+from refusals import refusal
+from scenes import fresh, require_balance
 
+import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 
@@ -20,10 +21,9 @@ DOWN = (0.0, -1.0)
 
 def beam(length: float | None, *, seated: bool = False, model: str = "flexible", **leaves: object):
     """A beam between two supports and a pin; these, and the rig."""
-    yade.O.reset()
     made = flexpm.Specimen.rectangle(LENGTH, HEIGHT, THICKNESS, seed=1)
     name = "augig-table7" if model == "flexible" else "augig-table2-bilinear"
-    rig = flexpm.PartRig(flexpm.build(made, name, model), **leaves)
+    rig = flexpm.PartRig(fresh(made, name, model), **leaves)
     left, right = (
         rig.support((0.5 * (LENGTH + s * SPAN), 0.0), length, seated=seated) for s in (-1, 1)
     )
@@ -131,9 +131,7 @@ def test_a_seat_lies_on_an_inclined_face_and_else_its_corner_takes_all(model, sl
     else:
         assert top.angle == 0.0
         assert arm == pytest.approx(np.copysign(0.5, slope), rel=0.1)
-    energies = rig.built.solver.energies()
-    given = energies.pop("boundary_work") + energies.pop("initial_energy")
-    assert np.isclose(sum(energies.values()), given, rtol=1e-6)
+    require_balance(rig, 1e-6)
 
 
 def test_what_has_no_seat_is_not_read_and_a_folder_tells_it(tmp_path, monkeypatch):
@@ -141,8 +139,7 @@ def test_what_has_no_seat_is_not_read_and_a_folder_tells_it(tmp_path, monkeypatc
     rig, left, _ = beam(0.012, seated=True, model="rigid", out="first", report=False)
     with pytest.raises(InputError, match="gauge tilt: part = plate at .*, must be seated"):
         rig.angle_of("tilt", rig._all_parts[2])
-    with pytest.raises(InputError, match="support: seated = 1, must be"):
-        rig.support((0.0, 0.5 * HEIGHT), seated=1)
+    refusal("support: seated = 1, must be", rig.support, (0.0, 0.5 * HEIGHT), seated=1)
     rig.angle_of("tilt", left)
     rig.strain_to(1e-7)
     rig.finish()
@@ -160,6 +157,124 @@ def test_energies_close_with_seats(seated):
     rig, *_ = beam(0.012, seated=seated, model="rigid")
     rig.strain_to(2e-6)
     rig.relax()
-    energies = rig.built.solver.energies()
-    given = energies.pop("boundary_work") + energies.pop("initial_energy")
-    assert np.isclose(sum(energies.values()), given, rtol=1e-6)
+    require_balance(rig, 1e-6)
+
+
+SIZE = 0.012
+SOLID_DOWN = (0, 0, -1)
+MODELS = pytest.mark.parametrize("model", ["flexible", "rigid"])
+
+
+def block(model: str, *, seated: bool):
+    """A block that is held at one half of its base, below a platen, and both parts."""
+    box = flexpm.Specimen.box(SIZE, SIZE, SIZE, seed=1)
+    rig = flexpm.SolidPartRig(fresh(box, "augig-table7", model))
+    base = rig.hold(box=((0, 0, 0), (0.6 * SIZE, SIZE, 0.2 * SIZE)))
+    top = rig.platen(2, seated=seated)
+    rig.drive(top, SOLID_DOWN, against=base)
+    return rig, base, top
+
+
+def eccentricity(force: np.ndarray, moment: np.ndarray, base, middle: np.ndarray) -> float:
+    """How far the load is off the middle of the platen, by what the base bears, in sizes [-]."""
+    whole = moment + np.cross(np.array(base.place) - middle, force)
+    return float(np.hypot(*whole[:2]) / abs(force[2]) / SIZE)
+
+
+@MODELS
+def test_a_seated_platen_loads_through_its_middle(model):
+    """What holds the block bears a moment about the seat only if the platen is not seated."""
+    found = {}
+    for seated in (False, True):
+        rig, base, top = block(model, seated=seated)
+        middle = np.array(top.place)
+        state = rig.elastic(way=1e-8)
+        linear = eccentricity(
+            *(np.array(of(base)) for of in (state.force, state.moment)), base, middle
+        )
+        if seated:
+            rig.angle_of("tilt", top)
+        rig.strain_to(2e-6)
+        rig.relax()
+        stepped = eccentricity(np.array(base.force), np.array(base.moment), base, middle)
+        found[seated] = linear, stepped
+    assert max(found[True]) < 1e-3
+    assert min(found[False]) > 0.05
+    # it goes down where nothing is below, at larger x
+    angle = np.array(state.angle(top))
+    assert angle[1] > 5.0 * abs(angle[0])
+    assert angle[2] == 0.0
+    factor = top.displacement[2] / state.displacement(top)[2]
+    assert np.array(top.angle) == pytest.approx(
+        factor * angle, rel=0.1, abs=0.05 * factor * angle[1]
+    )
+    assert rig.record["tilt"][-1] == pytest.approx(np.linalg.norm(top.angle), rel=0.01)
+    require_balance(rig, 1e-5)
+
+
+@MODELS
+def test_seats_lie_down_on_a_mantle_and_press_evenly(model):
+    """Facets of a mantle are inclined to a plate before it; the nearest three bear it at first."""
+    core = flexpm.Specimen.cylinder(SIZE, SIZE, seed=1)
+    rig = flexpm.SolidPartRig(fresh(core, "augig-table7", model))
+    place, edge = (0.5 * SIZE, 0.0, 0.65 * SIZE), 0.4 * SIZE
+    plate = rig.support(place, edge, normal=(-1, 0, 0), seated=True, strip=1e13)
+    base = rig.hold(box=((-SIZE, -SIZE, 0.0), (SIZE, SIZE, 0.15 * SIZE)))
+    laid = np.array(plate.angle)
+    assert laid[0] == 0.0
+    assert 1e-4 < np.linalg.norm(laid) < 0.5
+    assert rig.parts[0]["seated"]
+    assert "seated" not in rig.parts[1]
+    state = rig.elastic({plate: 2e6})
+    turned = np.array(state.angle(plate)) - laid
+    assert np.linalg.norm(turned) < 0.05
+    rig.press(plate, 2e6)
+    pushed = 2e6 * plate.area
+    assert -plate.force[0] == pytest.approx(pushed, rel=2e-3)
+    assert base.force[0] == pytest.approx(pushed, rel=2e-3)
+    assert np.linalg.norm(np.array(plate.angle) - laid) > 0.0
+    rig.drive(plate, (-1, 0, 0), against=base)
+    before = rig.built.solver.energies()
+    rig.strain_to(1e-6)
+    energies = require_balance(rig, 1e-3)
+    assert energies["elastic_energy"] > before["elastic_energy"]
+
+
+@MODELS
+@pytest.mark.parametrize("turned", [0.0, 40.0, 90.0, 200.0])
+def test_a_plate_that_was_laid_on_a_mantle_loads_it_at_once(model, turned):
+    """What it lies on counts as touched, wherever it lies: static solutions and steps agree."""
+    core = flexpm.Specimen.cylinder(SIZE, SIZE, seed=1)
+    rig = flexpm.SolidPartRig(fresh(core, "augig-table7", model))
+    x, y = np.cos(np.radians(turned)), np.sin(np.radians(turned))
+    base = rig.hold(box=((-SIZE, -SIZE, 0.0), (SIZE, SIZE, 0.15 * SIZE)))
+    place = (0.5 * SIZE * x, 0.5 * SIZE * y, 0.65 * SIZE)
+    plate = rig.support(place, 0.4 * SIZE, normal=(-x, -y, 0), seated=True)
+    assert np.linalg.norm(np.array(plate.place)[:2]) == pytest.approx(0.5 * SIZE, rel=0.06)
+    rig.drive(plate, (-x, -y, 0), against=base)
+    state = rig.elastic(way=1e-8)
+    rig.strain_to(1e-7)
+    load, way = rig.record["load"][-1], rig.record["displacement"][-1]
+    # few contacts bear at first, more as it goes on
+    assert 0.3 * state.load / 1e-8 < load / way < 3.0 * state.load / 1e-8
+    require_balance(rig, 1e-3)
+
+
+def test_seats_alone_are_refused():
+    rig = flexpm.SolidPartRig(fresh(flexpm.Specimen.box(SIZE, SIZE, SIZE, seed=1)))
+    low, top = rig.platen(0, seated=True), rig.platen(2, seated=True)
+    rig.drive(top, SOLID_DOWN, against=low)
+    refusal("load: parts = all seated, must hold", rig.strain_to, 1e-6)
+
+
+@MODELS
+def test_a_pressed_plate_bears_its_pressure_beside_a_soft_machine(model):
+    """Also where a load is asked for, of which the machine gives a part of the way."""
+    box = flexpm.Specimen.box(SIZE, SIZE, SIZE, seed=1)
+    rig = flexpm.SolidPartRig(fresh(box, "augig-table7", model))
+    low, top, left, right = (rig.platen(side) for side in (0, 2, 3, 1))
+    rig.drive(top, SOLID_DOWN, against=low, machine=1e8)
+    state = rig.elastic({left: 1e6, right: 1e6}, load=1e3)
+    assert state.load == pytest.approx(1e3)
+    assert state.force(left)[0] == pytest.approx(1e6 * left.area, rel=1e-3)
+    assert state.force(right)[0] == pytest.approx(-1e6 * right.area, rel=1e-3)

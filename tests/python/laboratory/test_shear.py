@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Direct shear of joints and of rock, and what of it is refused."""
+"""Direct shear of joints and of rock, in 2D and 3D, and what of it is refused."""
 
 from __future__ import annotations
 
@@ -9,16 +9,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
+from refusals import failure, refusal
+from scenes import fresh
 
+import flexpm
+from flexpm import Specimen
 from flexpm.cli.main import main
 from flexpm.errors import InputError
+from flexpm.materials.material import default_name
 from flexpm.report import tables
 from flexpm.rigs.part_rig import PartRig
-from flexpm.runs import runner
-from flexpm.runs.checkpoint import Checkpoint
 from flexpm.runs.loading_rate import Loading
 from flexpm.runs.run_spec import RunSpec
 
@@ -158,34 +159,6 @@ def test_rock_without_a_joint_shears_beyond_its_cohesion(whole):
 FAR = {"rate": 20.0, "max_displacement": 1.5e-3}
 
 
-@pytest.mark.parametrize(("stage", "options"), [(1, {}), (2, {}), (2, FAR)])
-def test_a_shear_test_that_was_interrupted_has_the_same_bits(
-    whole, tmp_path, monkeypatch, stage, options
-):
-    once = sheared(whole, "rigid", **options)
-    saves = []
-    save = Checkpoint.save
-
-    def interrupt(self):
-        save(self)
-        saves.append(yade.O.iter)
-        if len(saves) == 1:
-            raise KeyboardInterrupt
-
-    monkeypatch.setattr(runner, "_LOOK_UP", 1e-4)  # on a fast machine, too
-    late = 0 if stage == 1 else once.steps // 2
-    monkeypatch.setattr(Checkpoint, "save", interrupt)
-    monkeypatch.setattr(Checkpoint, "due", property(lambda self: yade.O.iter > late + 100))
-    with pytest.raises(KeyboardInterrupt):
-        sheared(whole, "rigid", out=tmp_path, report=False, **options)
-    monkeypatch.undo()
-    resumed = sheared(whole, "rigid", out=tmp_path, report=False, **options)
-    assert 0 < resumed.resumed_at < once.steps
-    assert np.array_equal(resumed.curve.array, once.curve.array, equal_nan=True)
-    again = sheared(whole, "rigid", out=tmp_path, report=False, **options)
-    assert again.steps == once.steps
-
-
 def test_the_scales_of_a_loading_are_those_that_it_began_with(whole):
     """Not those of what is broken by then, also in a scene that is taken up again."""
     yade.O.reset()
@@ -257,15 +230,12 @@ def test_shear_has_its_own_size_and_pressure():
 
 
 def test_a_rig_presses_on_what_it_is_told(whole):
-    yade.O.reset()
-    rig = PartRig(flexpm.build(whole, model="rigid"))
+    rig = PartRig(fresh(whole, model="rigid"))
     floor, lid = rig.platen(0), rig.platen(2)
-    with pytest.raises(InputError, match="confine: part = None"):
-        rig.confine(1e6)
+    refusal("confine: part = None", rig.confine, 1e6)
     rig.drive([floor], (0.0, 1.0))
     rig.also("stress", "axial_stress")
-    with pytest.raises(InputError, match="also = 'stress'"):
-        rig.also("stress", "load")
+    refusal("also = 'stress'", rig.also, "stress", "load")
     with pytest.raises(InputError, match="gauge side: length of its direction = 0"):
         rig.gauge("side", (0.0, 0.0), (0.01, 0.0), along=(0.0, 0.0))
     rig.press(lid, 1e6)
@@ -280,18 +250,69 @@ def test_a_specimen_that_is_pressed_to_pieces_is_refused(whole):
     line = (
         r"confine: imbalance = .* of 1.2e\+09 Pa \(reactions .*, mean stress .*, motion .*\), must"
     )
-    with pytest.raises(flexpm.errors.SimulationError, match=line):
-        flexpm.run("shear", whole, rock, "rigid", normal_stress=1.2e9)
+    failure(line, flexpm.run, "shear", whole, rock, "rigid", normal_stress=1.2e9)
 
 
 def test_the_forces_balance_under_a_pressure_on_two_grains():
     """A wave crosses them within a few steps: the balance must be known as often."""
-    yade.O.reset()
     square = np.array([[0.0, 0.0], [0.01, 0.0], [0.01, 0.01], [0.0, 0.01]])
     blocks = flexpm.Specimen.from_polygons([square, square + np.array([0.0, 0.01])], 0.01)
-    rig = PartRig(flexpm.build(blocks, model="rigid"))
+    rig = PartRig(fresh(blocks, model="rigid"))
     floor, lid = rig.platen(0, bonded=True), rig.platen(2)
     rig.drive([floor], (0.0, 1.0))
     rig.press(lid, 1e6)
     assert floor.force[1] == pytest.approx(100.0, rel=0.01)
     assert lid.force[1] == pytest.approx(-100.0, rel=0.01)
+
+
+#: A hundred grains.
+SOLID_WIDTH, DEPTH, SOLID_HEIGHT = 0.016, 0.009, 0.012
+AREA = SOLID_WIDTH * DEPTH
+
+
+@pytest.fixture(scope="module")
+def block():
+    return Specimen.box(SOLID_WIDTH, DEPTH, SOLID_HEIGHT, seed=1)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_the_lower_half_slides_below_the_upper_one(block, model):
+    result = flexpm.run("shear", block, default_name(model), model, rate=2.0, normal_stress=2e6)
+    curve = result.curve
+    assert result.energy_error < 0.01
+    assert curve["load"] == pytest.approx(AREA * curve["axial_stress"])
+    assert curve["displacement"] == pytest.approx(SOLID_HEIGHT * curve["axial_strain"])
+    assert np.array_equal(curve["shear_stress"], curve["axial_stress"])
+    strength = result.material["cohesion"] + result.material["friction"] * 2e6
+    assert 0.2 * strength < result.peak_stress < 1.2 * strength
+    assert 0.0 < result.residual_strength < result.peak_stress
+    assert (result.youngs_modulus, result.poissons_ratio) == (None, None)
+    # upper and lower box bear the same up to the peak; the joint that has formed opens the sample
+    rising = slice(1, int(np.argmax(curve["axial_stress"])))
+    assert np.median(curve["end_mismatch"][rising]) < 0.02
+    assert curve["dilation"][-1] > 1e-5
+    assert curve["shear_displacement"][-1] > 0.0  # the lower point goes on, the upper one stays
+    assert result.fragments > 1
+
+
+@pytest.mark.long
+def test_more_pressure_bears_more(block):
+    low, high = (
+        flexpm.run(
+            "shear", block, default_name("rigid"), "rigid", rate=4.0, normal_stress=stress
+        ).peak_stress
+        for stress in (0.5e6, 8e6)
+    )
+    assert high > 1.2 * low
+
+
+def test_plates_without_one_for_a_pressure_are_not_pressed():
+    from flexpm.laboratory import part_tests
+    from flexpm.runs.run_spec import RunSpec, described
+
+    beam = Specimen.box(0.036, 0.008, 0.008, seed=1)
+    material = flexpm.materials.load("augig-table7")
+    spec = RunSpec("bending", beam.spec, described(material, "flexible"))
+    rig = part_tests.part_rig(fresh(beam, material), spec, None)
+    refusal("confine: part = None, must be one of the rig", rig.confine, 1e6)

@@ -2,15 +2,12 @@
 """Bending of solid beams: whole tests, notches, same bits, folders, what is refused."""
 
 import dataclasses
-import json
 
 import numpy as np
 import pytest
-from stopped_runs import same, taken_up
 
 import flexpm
 from flexpm import Specimen
-from flexpm.cli import main as cli
 from flexpm.kinds import toughness
 from flexpm.materials.material import default_name
 from flexpm.materials.mineral import Mineral
@@ -84,49 +81,3 @@ def test_pieces_of_a_grain_are_of_its_mineral_and_its_size_counts_once(beam):
     assert np.array_equal(
         notched(given, [(0.5 * LENGTH, NOTCH, False)]).minerals, given.minerals[cut.parents]
     )
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(("model", "notch"), [("flexible", None), ("rigid", NOTCH)])
-def test_threads_and_a_stop_change_no_bit(beam, model, notch, tmp_path, monkeypatch):
-    asked = {"model": model, "max_strain": 4e-4, "notch": notch}
-    whole = flexpm.run("bending", beam, threads=2, **asked)
-    assert same(taken_up(monkeypatch, tmp_path, 60, "bending", beam, **asked), whole)
-
-
-@pytest.mark.long
-def test_a_depth_asks_for_a_solid_and_its_folder_repeats(tmp_path, capsys, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    sizes = ["--length", "0.03", "--height", "0.008", "--depth", "0.008"]
-    asked = ["bending", *sizes, "--max-strain", "3e-4", "--rate", "4"]
-    assert cli.main(["run", *asked, "--quiet", "--out", "beam"]) in (0, 3)
-    inputs = json.loads((tmp_path / "beam/result.json").read_text())["inputs"]
-    assert inputs["specimen"]["kind"] == "box"
-    assert inputs["span"] == pytest.approx(8.0 / 9.0 * 0.03)
-    assert "--shape box" in (tmp_path / "beam/report.html").read_text()
-    capsys.readouterr()
-    assert cli.main(["rerun", "beam", "--quiet", "--out", "again", "--no-report"]) in (0, 3)
-    assert "the same as in" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("asked", "told"),
-    [
-        (["--depth", "0.02", "--thickness", "0.01"], "thickness = 0.01 m, must not be"),
-        (["--depth", "0.02", "--diameter", "0.1"], "diameter = 0.1 m, must not be given for"),
-        (["--depth", "0.02", "--confinement", "1e6"], "confinement = 1000000.0 Pa, must"),
-        (["--depth", "0.02", "--model", "jcfpm"], "must be one of flexible, rigid"),
-        (["--depth", "0.02", "--span", "0.2"], "span = 0.2 m, must be"),
-        (["--depth", "0.02", "--span", "0.001"], "span = 0.001 m, must be > 0.003: both supports"),
-        (["--depth", "0.02", "--notch", "0.04"], "notch = 0.04 m, must be"),
-        (["--depth", "0.02", "--notch", "0.01", "--span", "0.04"], "2.5 times the height"),
-        (["--depth", "0.02", "--joints", "no.csv"], "joints = no.csv, must not be given for a box"),
-        (["--shape", "cylinder"], "must be a rectangle for bending, or a box"),
-    ],
-)
-def test_what_does_not_fit_a_beam_is_refused(asked, told, tmp_path, capsys):
-    assert cli.main(["run", "bending", *asked, "--out", str(tmp_path / "none")]) == 2
-    error = capsys.readouterr().err
-    assert error.count("\n") == 1
-    assert told in error
-    assert not (tmp_path / "none").exists()

@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 import pytest
+from refusals import refusal
+from scenes import fresh
 from stopped_runs import same, taken_up
 
 import flexpm
@@ -14,8 +16,6 @@ from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.materials.material import default_name
 from flexpm.report.emission import emission_table
-
-import yade  # isort: skip  (flexpm tells Python where YADE is)
 
 #: A few hundred grains, ten across.
 DIAMETER, DEPTH = 0.03, 0.012
@@ -46,8 +46,7 @@ def split(x, z, force, diameter=DIAMETER, depth=DEPTH):
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_the_middle_of_a_disc_has_its_elastic_stresses(disc, model):
-    yade.O.reset()
-    built = flexpm.build(disc, model=model)
+    built = fresh(disc, model=model)
     rig = flexpm.rig(built)
     rig.strain_to(2e-4)
     force = rig.stress * 0.5 * math.pi * DIAMETER * DEPTH
@@ -82,9 +81,8 @@ def test_a_prism_in_the_middle_of_a_fine_disc_has_the_planes_stresses(diameter, 
     depth = 0.25 * diameter
     rock = flexpm.materials.load("augig-table7")
     stiff = {"normal_stiffness": 100.0 * rock.law("flexible")["normal_stiffness"]}
-    yade.O.reset()
     disc = Specimen.solid_disc(diameter, depth, seed=1)
-    built = flexpm.build(disc, rock.with_set(stiff, "flexible"))
+    built = fresh(disc, rock.with_set(stiff, "flexible"))
     rig = flexpm.SolidPartRig(built)
     _, places = built.solver.nodePlaces(bonded=True)
     top, near = places[:, 2].max(), 1e-6 * diameter
@@ -130,62 +128,15 @@ def test_a_disc_splits_along_the_load(disc, model):
     assert found == pytest.approx([largest.x, largest.y, largest.z], rel=0.01)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("model", ["flexible", "rigid"])
-def test_threads_and_a_stop_change_no_bit(small, model, tmp_path, monkeypatch):
-    asked = {"model": model, "max_strain": 2e-3}
-    whole = flexpm.run("brazilian", small, threads=2, **asked)
-    assert same(taken_up(monkeypatch, tmp_path, 60, "brazilian", small, **asked), whole)
-
-
-@pytest.mark.long
-def test_a_depth_asks_for_a_solid_and_its_folder_repeats(tmp_path, capsys, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    asked = ["brazilian", "--diameter", "0.014", "--depth", "0.008", "--max-strain", "1e-3"]
-    assert cli.main(["run", *asked, "--quiet", "--out", "disc"]) in (0, 3)
-    inputs = json.loads((tmp_path / "disc/result.json").read_text())["inputs"]
-    assert inputs["specimen"]["kind"] == "solid-disc"
-    assert "--shape solid-disc" in (tmp_path / "disc/report.html").read_text()
-    capsys.readouterr()
-    assert cli.main(["rerun", "disc", "--quiet", "--out", "again", "--no-report"]) in (0, 3)
-    assert "the same as in" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("asked", "told"),
-    [
-        (["--depth", "0.02", "--thickness", "0.01"], "thickness = 0.01 m, must not be"),
-        (["--depth", "0.02", "--height", "0.1"], "height = 0.1 m, must not be given for a"),
-        (
-            ["--depth", "0.02", "--confinement", "1e6"],
-            "confinement = 1000000.0 Pa, must be 0",
-        ),
-        (["--depth", "0.02", "--model", "inner"], "must be one of flexible, rigid"),
-        (["--shape", "cylinder"], "must be a disc for brazilian, or a solid-disc"),
-    ],
-)
-def test_what_does_not_fit_a_disc_is_refused(asked, told, tmp_path, capsys):
-    assert cli.main(["run", "brazilian", *asked, "--out", str(tmp_path / "none")]) == 2
-    error = capsys.readouterr().err
-    assert error.count("\n") == 1
-    assert told in error
-    assert not (tmp_path / "none").exists()
-
-
 def test_a_disc_has_neither_sides_to_press_nor_ends_to_pull(small):
-    yade.O.reset()
-    built = flexpm.build(small)
-    with pytest.raises(InputError, match="rig: tension = True, must be False for a disc"):
-        flexpm.rig(built, tension=True)
-    with pytest.raises(InputError, match="confine: pressure = 1e\\+06 Pa, must be left out"):
-        flexpm.rig(built).confine(1e6)
+    built = fresh(small)
+    refusal("rig: tension = True, must be False for a disc", flexpm.rig, built, tension=True)
+    refusal("confine: pressure = 1e\\+06 Pa, must be left out", flexpm.rig(built).confine, 1e6)
 
 
 def test_spheres_of_yade_are_not_laid_between_the_plates_of_a_disc(small):
-    yade.O.reset()
-    built = flexpm.build(small, model="jcfpm")
-    with pytest.raises(InputError, match="rig: model = jcfpm, must be flexible or rigid"):
-        flexpm.rig(built)
+    built = fresh(small, model="jcfpm")
+    refusal("rig: model = jcfpm, must be flexible or rigid", flexpm.rig, built)
 
 
 @pytest.mark.parametrize(
@@ -197,8 +148,7 @@ def test_spheres_of_yade_are_not_laid_between_the_plates_of_a_disc(small):
     ],
 )
 def test_no_default_is_the_size_of_given_spheres(small, sizes, missing):
-    with pytest.raises(InputError, match=missing):
-        Specimen.from_spheres(small.spheres, **sizes)
+    refusal(missing, Specimen.from_spheres, small.spheres, **sizes)
 
 
 def test_given_spheres_without_a_height_make_a_disc():
@@ -255,7 +205,5 @@ def test_jaws_that_fit_no_disc_are_refused(small):
         InputError, match="must be left out for a disc: jaws of a named test .*; lay jaws"
     ):
         flexpm.run("brazilian", plane, jaw_radius=0.0105)
-    yade.O.reset()
-    rig = flexpm.rig(flexpm.build(small, model="rigid"))
-    with pytest.raises(InputError, match="bend: radius = 0.006 m, must be > 0.007"):
-        rig.bend(0.006)
+    rig = flexpm.rig(fresh(small, model="rigid"))
+    refusal("bend: radius = 0.006 m, must be > 0.007", rig.bend, 0.006)

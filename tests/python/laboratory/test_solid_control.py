@@ -3,18 +3,17 @@
 
 from __future__ import annotations
 
-import importlib
 from pathlib import Path
 
 import numpy as np
 import pytest
+import yade
+from scenes import fresh
 
 import flexpm
 from flexpm.errors import InputError
 from flexpm.materials.material import default_name
 
-# importing flexpm has told Python where YADE is
-yade = importlib.import_module("yade")
 SIZE = 0.012
 
 
@@ -26,9 +25,8 @@ def follows(curve, column: str) -> float:
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
 def test_an_elastic_box_is_loaded_as_without_control(model):
-    yade.O.reset()
     box = flexpm.Specimen.box(SIZE, SIZE, SIZE, seed=1)
-    rig = flexpm.SolidPartRig(flexpm.build(box, "augig-table7", model))
+    rig = flexpm.SolidPartRig(fresh(box, "augig-table7", model))
     base, top = rig.platen(0), rig.platen(2)
     rig.gauge("across", (0.0, 0.5 * SIZE, 0.5 * SIZE), (SIZE, 0.5 * SIZE, 0.5 * SIZE))
     rig.way_of("way", top, (0, 0, -1))
@@ -66,8 +64,7 @@ def test_other_threads_and_a_saved_scene_give_the_same_bits(tmp_path: Path):
     core = flexpm.Specimen.cylinder(SIZE, 2.0 * SIZE, seed=1)
     records = []
     for threads in (1, 2):
-        yade.O.reset()
-        rig = flexpm.rig(flexpm.build(core, "augig-table7", "rigid", threads=threads))
+        rig = flexpm.rig(fresh(core, "augig-table7", "rigid", threads=threads))
         rig.start(flexpm.Loading(kind="waiting", control="lateral_strain"))
         for step in range(2500):
             if threads == 2 and step == 1700:

@@ -6,18 +6,17 @@ import json
 
 import numpy as np
 import pytest
-from stopped_runs import same, taken_up
+from refusals import refusal
+from scenes import fresh
+from stopped_runs import same
 
 import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
-from flexpm.materials.material import default_name
 from flexpm.models.solids import solver_of
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_state
-
-import yade  # isort: skip  (flexpm tells Python where YADE is)
 
 #: A few dozen grains: a test takes some seconds.
 SIZES = {"diameter": 0.01, "height": 0.016}
@@ -130,52 +129,6 @@ def test_boxes_and_both_models_break(test, model):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("model", ["flexible", "rigid"])
-def test_threads_change_no_bit(core, model):
-    runs = [
-        flexpm.run(
-            "uniaxial", core, default_name(model), model, max_strain=8e-4, threads=threads, **FAST
-        )
-        for threads in (1, 2)
-    ]
-    assert same(*runs)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("model", ["flexible", "rigid"])
-def test_a_tension_test_that_is_stopped_as_it_cracks_goes_on_to_the_same_bits(
-    core, model, tmp_path, monkeypatch
-):
-    asked = {"model": model, "report": False, **FAST}
-    whole = flexpm.run("tension", core, threads=2, **asked)
-    amid = whole.cracks[len(whole.cracks) // 2].step
-    again = taken_up(monkeypatch, tmp_path, amid, "tension", core, **asked)
-    assert whole.cracks[0].step < again.resumed_at < whole.steps
-    assert same(again, whole)
-    assert again.cracks == whole.cracks
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("model", ["flexible", "rigid"])
-def test_a_run_that_is_stopped_goes_on_to_the_same_bits(core, model, tmp_path, monkeypatch):
-    asked = {"model": model, "max_strain": 8e-4, "rate": 0.1}
-    whole = flexpm.run("uniaxial", core, **asked)
-    again = taken_up(monkeypatch, tmp_path, 60, "uniaxial", core, **asked)
-    assert same(again, whole)
-
-
-@pytest.mark.long
-def test_the_command_repeats_a_run(tmp_path, capsys, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    sizes = [f"--{name}={value}" for name, value in BOX.items()]
-    asked = ["uniaxial", "--shape", "box", *sizes, "--max-strain", "4e-4", "--rate", "4"]
-    assert cli.main(["run", *asked, "--quiet", "--out", "box", "--no-report"]) in (0, 3)
-    capsys.readouterr()
-    assert cli.main(["rerun", "box", "--quiet", "--out", "again", "--no-report"]) in (0, 3)
-    assert "the same as in" in capsys.readouterr().out
-
-
-@pytest.mark.long
 def test_studies_and_comparisons_take_solids(tmp_path):
     box = Specimen.box(**BOX, seed=2)
     found = flexpm.compare("tension", box, ("flexible", "rigid"), max_strain=2e-4)
@@ -212,8 +165,7 @@ def test_a_layer_of_prisms_between_planes_is_the_plane_in_plane_strain():
     x, y = plane.centres.T
     rows = np.column_stack((x, np.full(len(x), 1e-3), y, plane.radii))
     layer = Specimen.from_spheres(rows, width=0.009, depth=2e-3, height=0.012, short_edge=0.0)
-    yade.O.reset()
-    built = flexpm.build(layer, rock)
+    built = fresh(layer, rock)
     for side in (4, 5):
         built.solver.holdSide(side, y=True)
     rig = flexpm.rig(built)
@@ -227,9 +179,8 @@ def test_a_layer_of_prisms_between_planes_is_the_plane_in_plane_strain():
 
 
 def test_a_rigid_grain_alone_has_a_mass_and_no_strain_between_its_own_ends():
-    yade.O.reset()
     alone = Specimen.from_spheres([[0.0, 0.0, 0.005, 0.005]], diameter=0.01, height=0.01)
-    built = flexpm.build(alone, model="rigid")
+    built = fresh(alone, model="rigid")
     built.run(20)
     assert np.all(np.isfinite(built.snapshot().positions))
     with pytest.raises(InputError, match="height between strain gauges = 0 m, must be above 0"):
@@ -237,12 +188,8 @@ def test_a_rigid_grain_alone_has_a_mass_and_no_strain_between_its_own_ends():
 
 
 def test_what_is_of_the_plane_is_refused_for_a_solid_and_pictures_show_its_section(core):
-    yade.O.reset()
-    built = flexpm.build(core)
-    with pytest.raises(InputError, match="run: specimen = cylinder, must be a .* for bending"):
-        flexpm.run("bending", core)
-    with pytest.raises(InputError, match="start = static, must be left out for a cylinder"):
-        flexpm.run("uniaxial", core, start="static")
+    built = fresh(core)
+    refusal("run: specimen = cylinder, must be a .* for bending", flexpm.run, "bending", core)
     with pytest.raises(InputError, match="must be one number; that across y .* is second_conf"):
         flexpm.run("triaxial", core, confinement=(1e6, 3e6))
     for draw in (flexpm.plot.cracks, flexpm.plot.fragments, flexpm.plot.stress):

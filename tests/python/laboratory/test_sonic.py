@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pulses through specimens: their speeds, energy, ends, and what is refused."""
+"""Pulses through specimens of 2D and 3D: speeds, energy, ends, and what is refused."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ import json
 
 import numpy as np
 import pytest
-
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
+from refusals import refusal
+from scenes import fresh
 
+import flexpm
+from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.report import tables
 from flexpm.results import waves
 from flexpm.results.record import COLUMNS, Curve
-from flexpm.runs import runner
-from flexpm.runs.checkpoint import Checkpoint
 from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.spec import SpecimenSpec
 
@@ -93,29 +93,6 @@ def test_a_pulse_that_has_not_passed_has_no_speed(slab):
     assert "scattered the pulse" in result.warnings[0]
 
 
-def test_an_interrupted_pulse_goes_on_to_the_same_bits(slab, tmp_path, monkeypatch):
-    options = {"model": "rigid", "wave": "s"}
-    whole = flexpm.run("sonic", slab, **options)
-    saves = []
-    save = Checkpoint.save
-
-    def interrupt(self):
-        save(self)
-        saves.append(yade.O.iter)
-        if len(saves) == 1:
-            raise KeyboardInterrupt
-
-    monkeypatch.setattr(runner, "_LOOK_UP", 1e-3)  # on a fast machine one look takes it to the end
-    monkeypatch.setattr(Checkpoint, "save", interrupt)
-    monkeypatch.setattr(Checkpoint, "due", property(lambda self: yade.O.iter > 50))
-    with pytest.raises(KeyboardInterrupt):
-        flexpm.run("sonic", slab, **options, out=tmp_path, report=False)
-    monkeypatch.undo()
-    resumed = flexpm.run("sonic", slab, **options, out=tmp_path, report=False)
-    assert 0 < resumed.resumed_at < whole.steps
-    assert np.array_equal(resumed.curve.array, whole.curve.array, equal_nan=True)
-
-
 def spec_of(specimen: SpecimenSpec, **options: object) -> RunSpec:
     material = flexpm.materials.load(None)
     return RunSpec("sonic", specimen, described(material, "flexible"), **options)
@@ -135,10 +112,7 @@ def test_sonic_has_real_masses_and_a_pulse_of_twenty_grains():
         (SpecimenSpec(), {"model": "inner"}, "run: model of sonic = 'inner'"),
         (SpecimenSpec(), {"confinement": 1e6}, "run: confinement = 1000000.0 Pa"),
     ):
-        with pytest.raises(InputError) as refused:
-            spec_of(specimen, **options)
-        assert str(refused.value).startswith(message)
-        assert "\n" not in str(refused.value)
+        assert refusal("", spec_of, specimen, **options).startswith(message)
     with pytest.raises(InputError, match="wave = p, must not be given for uniaxial"):
         dataclasses.replace(spec, test="uniaxial", wave="p")
 
@@ -146,8 +120,7 @@ def test_sonic_has_real_masses_and_a_pulse_of_twenty_grains():
 def test_a_given_specimen_of_too_few_grains_is_refused():
     packed = flexpm.Specimen.rectangle(0.012, 0.024, 0.01)
     given = flexpm.Specimen.from_discs(packed.centres, packed.radii, packed.outline, 0.01)
-    with pytest.raises(InputError, match="wavelength = .* must be >= 20"):
-        flexpm.run("sonic", given)
+    refusal("wavelength = .* must be >= 20", flexpm.run, "sonic", given)
 
 
 ARGUMENTS = ["--width", "0.008", "--height", "0.04", "--diameters", "5e-4,1e-3", "--quiet"]
@@ -187,3 +160,93 @@ def test_the_table_of_a_result_has_the_speed_alone(slab):
     text = tables.result_table(flexpm.run("sonic", slab, model="rigid"))
     assert "speed of the pressure wave" in text
     assert "Young's modulus" not in text and "peak" not in text
+
+
+#: Some two grains across and 53 high, 260 in all.
+SIZES = {"width": 0.0066, "depth": 0.0066, "height": 0.16}
+GRAINS = (2.8e-3, 3.2e-3)
+
+
+@pytest.fixture(scope="module")
+def bar():
+    return Specimen.box(**SIZES, diameters=GRAINS, seed=1)
+
+
+def ratio_of(result, found, material, wave, *, free=False):
+    """Speed of a result over that of a continuum."""
+    young, poisson = found
+    modulus = young if free else waves.solid_modulus(wave, young, poisson)
+    density = material.law(result.model)["density"]
+    return {"p": result.vp, "s": result.vs}[wave] / float(np.sqrt(modulus / density))
+
+
+@pytest.mark.parametrize(
+    ("model", "wave", "free", "off"),
+    [
+        # two grains across: nu of a third of the bar is off by 2 %
+        ("rigid", "p", False, 0.05),
+        ("rigid", "s", False, 0.04),
+        ("rigid", "p", True, 0.02),
+        pytest.param("flexible", "p", False, 0.01, marks=pytest.mark.long),
+        pytest.param("flexible", "p", True, 0.01, marks=pytest.mark.long),
+        pytest.param("flexible", "s", False, 0.01, marks=pytest.mark.slow),
+    ],
+)
+def test_a_pulse_has_the_speed_of_the_continuum_in_3d(bar, model, wave, free, off):
+    # a shear wave is scattered by two grains across
+    made = bar if wave == "p" else Specimen.box(0.0095, 0.0095, 0.16, diameters=GRAINS, seed=1)
+    solved = flexpm.elastic(made, model=model)
+    asked = {"sides": "free"} if free else {}
+    result = flexpm.run("sonic", made, model=model, wave=wave, report=False, **asked)
+    rock = flexpm.materials.load(None, model, solid=True)
+    found = solved["youngs_modulus"], solved["poissons_ratio"]
+    assert ratio_of(result, found, rock, wave, free=free) == pytest.approx(1.0, abs=off)
+    assert (result.status, result.failed, result.warnings) == ("ok", False, [])
+    assert result.peak_stress is None and result.youngs_modulus is None
+    assert result.energy_error < 1e-9
+    curve = result.curve
+    assert np.all(curve["boundary_work"] == 0.0) and np.all(curve["damping_energy"] == 0.0)
+    # both sections move by the same way: the area of the pulse's velocity over the time
+    near, far = curve["near_displacement"][-1], curve["far_displacement"][-1]
+    assert far == pytest.approx(near, rel=0.05)
+    assert near == pytest.approx(0.5 * 0.4 * SIZES["height"] * 1e-7, rel=0.1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("wave", "free", "off"), [("p", 0, 0.01), ("s", 0, 0.01), ("p", 1, 0.02)])
+def test_contacts_that_are_stiff_leave_the_speeds_of_the_elements(wave, free, off):
+    rock = flexpm.materials.load("augig-table7")
+    law = rock.law("flexible")
+    stiff = rock.with_set({"normal_stiffness": 100.0 * law["normal_stiffness"]})
+    box = Specimen.box(0.008, 0.008, 0.16, seed=1)
+    asked = {"sides": "free"} if free else {}
+    result = flexpm.run("sonic", box, stiff, wave=wave, report=False, **asked)
+    ratio = ratio_of(result, (law["young"], law["poisson"]), rock, wave, free=bool(free))
+    assert ratio == pytest.approx(1.0, abs=off)
+
+
+@pytest.mark.parametrize("wave", ["p", "s"])
+def test_a_pulse_goes_through_a_cylinder_of_rigid_grains(wave):
+    core = Specimen.cylinder(0.0095, 0.16, diameters=GRAINS, seed=1)
+    solved = flexpm.elastic(core, model="rigid")
+    result = flexpm.run("sonic", core, model="rigid", wave=wave, report=False)
+    found = solved["youngs_modulus"], solved["poissons_ratio"]
+    rock = flexpm.materials.load(None, "rigid", solid=True)
+    assert ratio_of(result, found, rock, wave) == pytest.approx(1.0, abs=0.05)
+    assert result.energy_error < 1e-9
+
+
+def test_what_no_pulse_has_is_refused(bar):
+    with pytest.raises(InputError, match="sides = free, must be held for wave = s"):
+        flexpm.run("sonic", bar, wave="s", sides="free")
+    refusal("run: sides = 'loose'", flexpm.run, "sonic", bar, sides="loose")
+    refusal("run: model of sonic = 'jcfpm'", flexpm.run, "sonic", bar, model="jcfpm")
+    refusal("wavelength = .* must be >= 20", flexpm.run, "sonic", Specimen.box(0.009, 0.009, 0.014))
+    built = fresh(bar, dynamic=True)
+    refusal("rig: dynamic = True, must be False for a solid", flexpm.rig, built)
+    built.run(3)
+    with pytest.raises(ValueError, match=r"resetEnergyBalance: steps = 3, must be 0"):
+        built.solver.resetEnergyBalance()
+    yade.O.reset()
+    with pytest.raises(InputError, match="gravity = 3, refined, 9.8, must be left out for a solid"):
+        flexpm.build(bar, dynamic=True, gravity=9.8)

@@ -5,10 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scenes import fresh
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
-import yade
-
+import flexpm
 from flexpm.rigs.rig import TestRig
 
 PLANE = [("plane", model) for model in ("flexible", "rigid", "jcfpm")]
@@ -25,8 +24,7 @@ def specimens() -> dict[str, object]:
 
 
 def rig_of(specimens: dict[str, object], where: str, model: str, *, tension: bool = False):
-    yade.O.reset()
-    return flexpm.rig(flexpm.build(specimens[where], model=model), tension=tension)
+    return flexpm.rig(fresh(specimens[where], model=model), tension=tension)
 
 
 def require_reached(rig: TestRig, stress: float) -> None:
@@ -88,8 +86,7 @@ def test_grips_pull_and_push(specimens, where, model, capfd):
 @pytest.mark.parametrize("where", ["plane", "space"])
 @pytest.mark.parametrize("bonded", [False, True])
 def test_platens_of_a_custom_test_separate_unless_they_are_bonded(specimens, where, bonded, capfd):
-    yade.O.reset()
-    built = flexpm.build(specimens[where], model="rigid")
+    built = fresh(specimens[where], model="rigid")
     kind = flexpm.PartRig if where == "plane" else flexpm.SolidPartRig
     rig = kind(built)
     # a bonded plate of a solid holds across, too, and takes no friction

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import pytest
+from scenes import fresh
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
-import yade
+import flexpm
 
 WIDTH, LENGTH, THICKNESS = 0.012, 0.03, 0.01
 AREA = WIDTH * THICKNESS
@@ -14,9 +14,8 @@ AREA = WIDTH * THICKNESS
 
 def between_strips(model: str, first: float | None, second: float | None, **leaves: object):
     """A bar between smooth platens with strips [Pa/m]: its rig, its driven platen."""
-    yade.O.reset()
     bar = flexpm.Specimen.rectangle(WIDTH, LENGTH, THICKNESS, seed=3)
-    rig = flexpm.PartRig(flexpm.build(bar, model=model), **leaves)
+    rig = flexpm.PartRig(fresh(bar, model=model), **leaves)
     floor, top = rig.platen(0, strip=first), rig.platen(2, strip=second)
     # a grain in the middle, or more, is kept from sliding along the platens
     rig.hold(disc=((0.5 * WIDTH, 0.5 * LENGTH), 2e-3), axes="x")

@@ -9,10 +9,10 @@ import shutil
 
 import numpy as np
 import pytest
+from refusals import refusal
 
 import flexpm
 from flexpm.cli import main as cli
-from flexpm.errors import InputError
 from flexpm.runs import runner
 from flexpm.studies import jobs, pages
 
@@ -64,8 +64,7 @@ def test_a_stopped_run_has_the_first_rows_of_the_whole_one(stopped, tmp_path_fac
     assert so_far["status"] == "unfinished" and so_far["test"] == test
     early, cracks = rows_of(folder / "curve.csv"), rows_of(folder / "cracks.csv")
     assert so_far["steps"] == int(float(early[-1]["step"]))
-    with pytest.raises(InputError, match=r"result\.json"):
-        flexpm.Result.read(folder)
+    refusal(r"result\.json", flexpm.Result.read, folder)
 
     assert cli.main(["report", str(folder)]) == 0
     page = (folder / "report.html").read_text()

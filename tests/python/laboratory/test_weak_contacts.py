@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm
 from flexpm.materials.material import Material
 
 PARENTS = 12

@@ -7,11 +7,11 @@ import math
 
 import numpy as np
 import pytest
-
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
 import yade
+from scenes import fresh
 from yade import wrapper
 
+import flexpm
 from flexpm.rigs.part_rig import PartRig
 from flexpm.runs.loading_rate import Loading
 
@@ -52,8 +52,7 @@ def grains(seed=1):
 
 def pulled(specimen, material, model="flexible", **loading):
     """A rig whose ends have pulled a specimen apart, with a fall to half of the load."""
-    yade.O.reset()
-    rig = PartRig(flexpm.build(specimen, material, model=model))
+    rig = PartRig(fresh(specimen, material, model=model))
     top = float(np.max(specimen.outline[:, 1]))
     if model == "flexible":
         lower, upper = (rig.hold(box=((-1, y - 1e-6), (1, y + 1e-6))) for y in (0.0, top))

@@ -7,13 +7,13 @@ import math
 
 import numpy as np
 import pytest
+import yade
+from refusals import refusal
+from scenes import fresh
 
-flexpm = pytest.importorskip("flexpm")
-import yade  # noqa: E402  (after flexpm, which finds it)
-
-from flexpm.errors import InputError  # noqa: E402
-from flexpm.models import grains as models  # noqa: E402
-from flexpm.runs.loading_rate import Loading  # noqa: E402
+import flexpm
+from flexpm.models import grains as models
+from flexpm.runs.loading_rate import Loading
 
 SIZE = 4e-3
 STIFFNESS = 1.08e13
@@ -117,13 +117,11 @@ def test_a_disc_whose_bonds_soften_far_is_loaded_past_its_peak() -> None:
 
 
 def test_a_disc_is_needed_for_the_brazilian_test(rectangle: flexpm.Specimen) -> None:
-    with pytest.raises(InputError, match="must be a disc"):
-        flexpm.run("brazilian", rectangle, model="rigid")
+    refusal("must be a disc", flexpm.run, "brazilian", rectangle, model="rigid")
 
 
 def test_rigid_grains_continue_after_loading(tmp_path, rectangle: flexpm.Specimen) -> None:
-    yade.O.reset()
-    built = flexpm.build(rectangle, model="rigid")
+    built = fresh(rectangle, model="rigid")
     flexpm.rig(built).start(Loading(rate=10.0))
     built.run(150)
     file = str(tmp_path / "scene.yade.gz")

@@ -15,11 +15,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browser import opened, shown, slide
+from refusals import refusal
 
 import flexpm
 from flexpm.cli import inputs, runs
 from flexpm.cli import main as cli
-from flexpm.errors import InputError
 from flexpm.materials.material import load
 from flexpm.report.emission import emission_picture
 from flexpm.report.pages import page, page_map, page_run, statuses
@@ -354,8 +354,7 @@ def test_the_command_for_a_given_specimen_names_its_file(tmp_path):
 
 
 def test_what_is_no_specimen_is_refused(tmp_path):
-    with pytest.raises(InputError, match="cannot be read"):
-        read_vtu(tmp_path / "specimen.vtu")
+    refusal("cannot be read", read_vtu, tmp_path / "specimen.vtu")
 
 
 @pytest.mark.long

@@ -3,7 +3,6 @@
 
 import dataclasses
 import os
-import subprocess
 import sys
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import pytest
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.image import imread
+from processes import captured
 from sample_snapshot import GRADIENT, HEIGHT, WIDTH, wall
 
 from flexpm.report import comparison, curves, maps, style
@@ -177,12 +177,8 @@ def test_pictures_need_neither_a_display_nor_pyplot():
         "print('matplotlib' in sys.modules)"
     )
     package = str(Path(curves.__file__).parents[2])
-    found = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        check=True,
-        env={**os.environ, "PYTHONPATH": package},
+    found = captured(
+        [sys.executable, "-c", code], check=True, env={**os.environ, "PYTHONPATH": package}
     )
     assert found.stdout.strip() == "True"
 

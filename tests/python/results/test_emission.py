@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from refusals import refusal
 
 import flexpm
-from flexpm.errors import InputError
 from flexpm.results.cracks import ERASED, SHEAR, TENSILE, Crack, read_cracks
 from flexpm.results.emission import (
     Event,
@@ -135,8 +135,7 @@ def test_events_read_back_unchanged(tmp_path):
     assert first == events[0]
     assert second[:-1] == events[1][:-1]
     (tmp_path / "events.csv").write_text("step,strain\n1,2\n")
-    with pytest.raises(InputError, match="holds no events"):
-        read_events(tmp_path / "events.csv")
+    refusal("holds no events", read_events, tmp_path / "events.csv")
 
 
 def test_cracks_of_an_older_version_have_no_energy(tmp_path):

@@ -5,12 +5,11 @@ import dataclasses
 
 import numpy as np
 import pytest
+import yade
 from solid_state import sample
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
-import yade
-
+import flexpm
 from flexpm import Specimen
 from flexpm.results.arrays import vtu_arrays
 from flexpm.results.cracks import cracks_csv, cracks_from_snapshot, read_cracks

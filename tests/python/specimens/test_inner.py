@@ -7,16 +7,17 @@ import dataclasses
 
 import numpy as np
 import pytest
+import yade
+from refusals import refusal
+from scenes import fresh
 
-flexpm = pytest.importorskip("flexpm")
-import yade  # noqa: E402  (after flexpm, which finds it)
-
-from flexpm import materials  # noqa: E402
-from flexpm.errors import InputError  # noqa: E402
-from flexpm.models import grains as models  # noqa: E402
-from flexpm.report import maps  # noqa: E402
-from flexpm.results.snapshot import Snapshot  # noqa: E402
-from flexpm.specimens import inner_particles as inner  # noqa: E402
+import flexpm
+from flexpm import materials
+from flexpm.errors import InputError
+from flexpm.models import grains as models
+from flexpm.report import maps
+from flexpm.results.snapshot import Snapshot
+from flexpm.specimens import inner_particles as inner
 
 MODELS = ("inner", "inner-un")
 PRESET = "augig-table2-bilinear"
@@ -97,13 +98,11 @@ def test_a_given_stiffness_is_not_fitted() -> None:
 def test_a_material_without_an_inner_set_is_refused(rectangle: flexpm.Specimen) -> None:
     material = materials.load(PRESET)
     rigid = dataclasses.replace(material, elastic={"rigid": material.elastic["rigid"]})
-    with pytest.raises(InputError, match=r"add a table \[elastic.inner\]"):
-        models.elastic(rectangle, rigid, "inner")
+    refusal(r"add a table \[elastic.inner\]", models.elastic, rectangle, rigid, "inner")
 
 
 def test_a_particle_turns_and_tells_its_grain(rectangle: flexpm.Specimen) -> None:
-    yade.O.reset()
-    built = flexpm.build(rectangle, PRESET, "inner")
+    built = fresh(rectangle, PRESET, "inner")
     grain = np.asarray(inner.cells(rectangle).grain)
     bodies = [yade.O.bodies[number] for number in built.solver.bodyIds]
     assert [body.shape.parentGrain for body in bodies] == grain.tolist()

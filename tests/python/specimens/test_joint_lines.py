@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cut_specimens import DIP, HEIGHT, LAW, WIDTH, require_lengths, require_pieces
+from refusals import refusal
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
-
+import flexpm
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.joints import lines as joint_lines
@@ -72,8 +72,7 @@ def test_a_file_of_a_spreadsheet(tmp_path):
 def test_files_that_hold_no_joints(tmp_path, text, message):
     file = tmp_path / "joints.csv"
     file.write_text(text)
-    with pytest.raises(InputError, match=message):
-        joint_lines.read(file)
+    refusal(message, joint_lines.read, file)
 
 
 def test_the_command_cuts_a_specimen(tmp_path, capsys, rectangle):
@@ -115,8 +114,7 @@ def test_a_point_that_is_there_twice_counts_once(tmp_path, rectangle):
 
 
 def test_a_file_of_joints_is_read_no_further_than_its_limit():
-    with pytest.raises(InputError, match="is larger than 64 MB"):
-        joint_lines.read(Path("/dev/zero"))
+    refusal("is larger than 64 MB", joint_lines.read, Path("/dev/zero"))
 
 
 @pytest.fixture(scope="module")
@@ -134,8 +132,7 @@ def test_lines_that_start_beside_a_side(block):
         assert found.outside == pytest.approx(
             math.dist(*lines[1]) * (1.0 - max(start, 0.0) / (start + 0.005)), rel=1e-3
         )
-        with pytest.raises(InputError, match="lines that cut a cell = 0 of 1"):
-            block.with_joints({"a": lines[1]})
+        refusal("lines that cut a cell = 0 of 1", block.with_joints, {"a": lines[1]})
     rng = np.random.default_rng(1)
     for inside, y, up in rng.uniform((1e-5, 0.001, -0.005), (0.003, 0.039, 0.005), (200, 3)):
         leaving = [(inside, y), (-0.005, y + up)]

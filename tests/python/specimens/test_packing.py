@@ -2,12 +2,13 @@
 """Packings: at rest, inside the outline, repeatable to the bit, no trace in the caller's scene."""
 
 import os
-import subprocess
 import sys
 import time
 
 import numpy as np
 import pytest
+from processes import captured
+from refusals import refusal
 
 from flexpm import _flexpm
 from flexpm.errors import InputError, SimulationError
@@ -195,13 +196,7 @@ def test_threads_do_not_matter(package_parent):
     prints = set()
     for threads in ("1", "2"):
         environment = dict(os.environ, OMP_NUM_THREADS=threads, PYTHONPATH=str(package_parent))
-        run = subprocess.run(
-            [sys.executable, "-c", code],
-            env=environment,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
+        run = captured([sys.executable, "-c", code], env=environment, check=True)
         prints.add(run.stdout.strip())
     assert len(prints) == 1
 
@@ -316,8 +311,7 @@ def test_spatial_order_keeps_neighbours_close():
 )
 def test_all_shapes_are_asked_for_their_memory_before_they_are_packed(monkeypatch, make):
     monkeypatch.setattr(packing, "pack", lambda *_: 1 / 0)  # nothing is packed
-    with pytest.raises(InputError, match=r"grains = .*, need .* GB of memory, must be at most"):
-        make()
+    refusal(r"grains = .*, need .* GB of memory, must be at most", make)
 
 
 def test_a_spec_of_a_larger_machine_can_be_read():

@@ -5,6 +5,8 @@ import math
 
 import numpy as np
 import pytest
+from refusals import refusal
+from scenes import fresh
 
 import flexpm
 from flexpm.errors import InputError
@@ -41,11 +43,9 @@ def test_a_factor_of_all_contacts_is_another_material(specimen):
 
 def _pulled(specimen, material):
     """A specimen whose top is driven until points have softened."""
-    import yade
     from yade import wrapper
 
-    yade.O.reset()
-    built = flexpm.build(specimen, material)
+    built = fresh(specimen, material)
     built.add_engines(before=(wrapper.EndDisplacementController(velocity=2e-9),))
     built.run(3000)
     return built
@@ -89,14 +89,12 @@ def test_strengths_are_saved(specimen, tmp_path):
 def test_factors_that_cannot_be(specimen, factors):
     if isinstance(factors, list) and factors != [1.0]:
         factors = factors * contacts(specimen)
-    with pytest.raises(InputError, match="must be .* numbers above 0, one for each contact"):
-        specimen.with_strengths(factors)
+    refusal("must be .* numbers above 0, one for each contact", specimen.with_strengths, factors)
 
 
 def test_other_refusals(specimen):
     drawn = specimen.with_weibull_strengths(5.0)
-    with pytest.raises(InputError, match="modulus = 0.5, must be >= 1"):
-        specimen.with_weibull_strengths(0.5)
+    refusal("modulus = 0.5, must be >= 1", specimen.with_weibull_strengths, 0.5)
     with pytest.raises(InputError, match="cut first, then give strengths"):
         drawn.with_joints({"a": [(0.0, 0.01), (0.012, 0.01)]})
     for model in ("inner", "jcfpm"):

@@ -7,14 +7,14 @@ A Python with LAMMPS is named by FLEXPM_LAMMPS_PYTHON.
 import ast
 import importlib.util
 import os
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from processes import captured
+from refusals import failure
 
-from flexpm.errors import SimulationError
 from flexpm.specimens.specimen import Specimen
 
 SCRIPT = Path(__file__).parents[3] / "scripts" / "studies" / "lammps_bench.py"
@@ -67,18 +67,13 @@ def test_lammps_takes_turns_with_the_others(specimen, python):
 def test_a_dead_process_is_named(specimen, python):
     with lammps_bench.workers(python, specimen) as workers:
         worker = workers["lammps-spring"]
-        with pytest.raises(SimulationError, match="LAMMPS = .*must step"):
-            worker.step("no number")
+        failure("LAMMPS = .*must step", worker.step, "no number")
 
 
 def test_a_python_without_lammps_is_refused_with_one_line(package_parent):
     for python in ("/bin/false", "/no/such/python"):
-        done = subprocess.run(
-            [sys.executable, SCRIPT, python],
-            env=os.environ | {"PYTHONPATH": str(package_parent)},
-            capture_output=True,
-            text=True,
-            check=False,
+        done = captured(
+            [sys.executable, SCRIPT, python], env=os.environ | {"PYTHONPATH": str(package_parent)}
         )
         assert done.returncode == 2
         assert done.stderr.count("\n") == 1

@@ -9,10 +9,10 @@ import click
 import pandas
 import pytest
 from matplotlib.image import imread
+from refusals import refusal, refused_command
 
 from flexpm.cli import main as cli
 from flexpm.cli.parameters import Seeds
-from flexpm.errors import InputError
 from flexpm.report.words import words_of_test
 from flexpm.studies import packings
 
@@ -64,8 +64,7 @@ def test_seeds_are_numbers_and_ranges_in_the_order_given(text, seeds):
     ],
 )
 def test_wrong_seeds_are_refused(text, message):
-    with pytest.raises(InputError, match=message):
-        Seeds().convert(text, click.Option(["--seeds"]), None)
+    refusal(message, Seeds().convert, text, click.Option(["--seeds"]), None)
 
 
 def test_means_leave_out_failed_and_lost_runs():
@@ -125,8 +124,7 @@ def test_a_folder_with_runs_of_other_inputs_is_refused(short, tmp_path, capsys):
     assert cli.main([*other, "--seed", "5", "--out", str(tmp_path / "seed-5")]) == 3
     faster = [*other, "--rate", "9", "--seeds", "5", "--out", str(tmp_path)]
     capsys.readouterr()
-    assert cli.main(faster) == 2
-    assert "seed-5, holds a run of other inputs" in capsys.readouterr().err
+    refused_command(capsys, "seed-5, holds a run of other inputs", *faster)
     assert cli.main([*faster, "--discard-checkpoint"]) == 3
     assert result_of(tmp_path / "seed-5")["inputs"]["rate"] == 9.0
 

@@ -18,6 +18,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.axes import Axes
 from matplotlib.image import imread
+from processes import captured
+from refusals import refusal
 
 import flexpm
 from flexpm import materials
@@ -112,9 +114,7 @@ def test_keys_follow_what_is_computed(tmp_path):
     ],
 )
 def test_wrong_files_are_refused_before_anything_runs(tmp_path, text, says):
-    with pytest.raises(InputError, match="^[^\n]*$") as error:
-        study.read(file_of(tmp_path, text))
-    assert says in str(error.value)
+    assert says in refusal("^[^\n]*$", study.read, file_of(tmp_path, text))
 
 
 @pytest.mark.long
@@ -134,7 +134,7 @@ def test_a_killed_study_repeats_nothing_and_ends_with_the_same_table(tmp_path, p
     started.wait()
     finished = {file: file.stat().st_mtime_ns for file in cut.glob("runs/*/outcome.json")}
     assert 2 <= len(finished) < 4
-    done = subprocess.run(arguments, capture_output=True, text=True)
+    done = captured(arguments)
     assert done.returncode == 0, done.stderr
     assert all(file.stat().st_mtime_ns == at for file, at in finished.items())
     assert (cut / "table.csv").read_bytes() == (tmp_path / "whole/table.csv").read_bytes()
@@ -145,7 +145,7 @@ def test_a_failed_run_is_a_row_and_stops_no_other(tmp_path, package_parent):
     text = ELASTIC.replace("[1, 2, 3, 4]", "[1]") + "[[case]]\n[[case]]\nporosity = 0.95\n"
     path = file_of(tmp_path, text)
     arguments = command(package_parent, "study", path, "--out", tmp_path / "out")
-    done = subprocess.run(arguments, capture_output=True, text=True)
+    done = captured(arguments)
     assert done.returncode == 3 and len(done.stderr.splitlines()) == 1
     rows = pandas.read_csv(tmp_path / "out/table.csv")
     assert list(rows["exit_code"]) == [0, 2]
@@ -203,12 +203,10 @@ with pool.Pool(Path("."), workers=2) as runs:
 
 def test_runs_of_this_machine_are_reached_from_this_machine_alone(tmp_path, package_parent):
     """In a process of its own: threads of Dask would stay in that of the other tests."""
-    done = subprocess.run(
+    done = captured(
         ["/usr/bin/python3", "-P", "-c", LISTENING],
         cwd=tmp_path,
         env=os.environ | {"PYTHONPATH": str(package_parent)},
-        capture_output=True,
-        text=True,
     )
     assert done.stdout == "['127.0.0.1']\n", done.stderr  # Dask's pages
 
@@ -249,9 +247,7 @@ def test_a_checkpoint_of_no_use_is_not_taken_for_a_failed_run(package_parent, tm
     job = jobs.make({"test": "tension", "max_strain": 1e-5, "rate": 8, **sizes}, tmp_path)
 
     def run() -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            job.command(tmp_path / "run", package_parent), capture_output=True, text=True
-        )
+        return captured(job.command(tmp_path / "run", package_parent))
 
     first = run()
     assert first.returncode == 3, first.stderr
@@ -305,8 +301,7 @@ def test_frames_are_no_inputs_and_need_the_run_again(tmp_path):
         tmp_path, tmp_path
     )
     for wrong in ({"frames": -1}, {"frames": "many"}, {"film": 3}):
-        with pytest.raises(InputError, match="frames|film"):
-            jobs.make({"test": "tension", **wrong}, tmp_path)
+        refusal("frames|film", jobs.make, {"test": "tension", **wrong}, tmp_path)
 
 
 def test_a_study_takes_joints_and_a_saved_specimen(tmp_path, package_parent):
@@ -327,12 +322,7 @@ def test_a_study_takes_joints_and_a_saved_specimen(tmp_path, package_parent):
     packed += packed.replace("seed = 2", "seed = 3")  # that of the file: one run
     read = '[[case]]\nspecimen = "cut.json"\n'
     path = file_of(tmp_path, f'[common]\ntest = "elastic"\n{law}{grid}{packed}{read}')
-    done = subprocess.run(
-        command(package_parent, "study", path, "--out", tmp_path / "out", "--quiet"),
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = captured(command(package_parent, "study", path, "--out", tmp_path / "out", "--quiet"))
     assert done.returncode == 0, done.stderr
     rows = pandas.read_csv(tmp_path / "out" / "table.csv", float_precision="round_trip")
     found = rows["youngs_modulus"].tolist()
@@ -398,7 +388,7 @@ def test_yade_batch_does_the_runs_of_the_study(tmp_path, package_parent):
     batch = ["yade-batch", "-j1", "--job-threads=1", "table", "cohesion_batch.py"]
     environment = dict(os.environ, PYTHONPATH=str(package_parent))
     environment.pop("DISPLAY", None)
-    done = subprocess.run(batch, cwd=tmp_path, env=environment, capture_output=True, text=True)
+    done = captured(batch, cwd=tmp_path, env=environment)
     # the program's own exit code is 0 even if a job failed
     assert done.returncode == 0 and "FAILED" not in done.stdout, done.stdout
     found = json.loads((tmp_path / "batch-rigid-3e+07-2/result.json").read_text())

@@ -28,8 +28,8 @@ class SolidElasticState(SolidSnapshot):
     """Where an unloaded solid between parts would come to rest, if all of it stayed elastic.
 
     It is a snapshot as any other: displacements, stresses and sections grow in proportion with the
-    loading. Plates that are not bonded press alone: their points open and close until all agree. Smooth
-    plates let what they press slide, those with friction hold it (deviation D101).
+    loading. Plates that are not bonded press alone: their points open and close until all agree.
+    Smooth plates let what they press slide, those with friction hold it (deviation D101).
     """
 
     way: float = 0.0  #: of the driven parts, or a crosshead, along the loading [m, or rad]
@@ -70,9 +70,9 @@ class SolidPartStatics(PartStatics):
         way: float = 0.0,
         load: float | None = None,
     ) -> SolidElasticState:
-        """Where the unloaded solid would come to rest, if all of it stayed elastic and had no weight.
+        """Where the unloaded solid would come to rest, if all of it stayed elastic.
 
-        Plates that are not bonded press alone, as of the plane, where they touch at the beginning.
+        Weights have no part in it. Plates that are not bonded press alone, as of the plane, where they touch at the beginning.
 
         Args:
             pressures: On parts [Pa]: they are free to move along their normals.
