@@ -33,8 +33,8 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
     `PartRig` of a solid makes one; this name goes with version 0.4. Its calls are those of
     `PartRig`, places and directions with a third component: `support`, `platen`, `jaw`, `hold`,
     `gauge`, `way_of`, `contact_of`, `angle_of`, `drive`, `turn`, `elastic`, then `settle`, `press`,
-    `fluid`, `load`, `strain_to`, `stress_to`, `relax`, `unload`, `cycle`, `follow`. Features of 2D alone are
-    refused. Deviation D101.
+    `fluid`, `load`, `strain_to`, `stress_to`, `relax`, `unload`, `cycle`, `follow`. Features of 2D
+    alone are refused. Deviation D101.
     """
 
     _axes = SPACE

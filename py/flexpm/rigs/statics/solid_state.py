@@ -72,7 +72,8 @@ class SolidPartStatics(PartStatics):
     ) -> SolidElasticState:
         """Where the unloaded solid would come to rest, if all of it stayed elastic.
 
-        Weights have no part in it. Plates that are not bonded press alone, as of the plane, where they touch at the beginning.
+        Weights have no part in it. Plates that are not bonded press alone, as of the plane, where
+        they touch at the beginning.
 
         Args:
             pressures: On parts [Pa]: they are free to move along their normals.
