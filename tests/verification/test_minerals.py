@@ -195,7 +195,9 @@ def test_values_of_the_rock_and_of_a_mineral_can_be_set():
         ("hard.cohesion=much", "set hard.cohesion = 'much' Pa, must be a number"),
     ):
         refusal(message, rock().with_set, [text])
-    refusal("needs a material with", Material.from_dict(BASE).with_set, ["hard.cohesion=1e6"])
+    refusal(
+        "needs a material with", lambda: Material.from_dict(BASE).with_set(["hard.cohesion=1e6"])
+    )
 
 
 def changed(**changes):
@@ -237,7 +239,7 @@ def test_inner_particles_refuse_minerals(model):
 
 @pytest.mark.parametrize("given", [[0], [0.0] * 24, [-1] * 24, [0, 1] * 13])
 def test_wrong_minerals_of_grains_are_refused(given):
-    refusal("must be 24 indices", grid().with_minerals, given)
+    refusal("must be 24 indices", lambda: grid().with_minerals(given))
 
 
 def test_a_mineral_that_the_rock_does_not_have():

@@ -265,7 +265,7 @@ def test_traces_are_clipped_to_the_window():
 )
 def test_what_cannot_be_drawn(changes, message):
     one = {"intensity": 1000.0, "length": CONSTANT, "orientation": LEVEL, **changes}
-    refusal(message, Network.of({"set": {"a": one}}).lines, BOX)
+    refusal(message, lambda: Network.of({"set": {"a": one}}).lines(BOX))
 
 
 @pytest.mark.parametrize(

@@ -313,4 +313,4 @@ def test_what_no_jaw_is_is_refused(disc):
     for call, told in refused:
         refusal(told, call)
     box = flexpm.Specimen.box(0.012, 0.012, 0.012, seed=1)
-    refusal("jaw: specimen = no disc, must be one", rig_of(box).jaw, (0, 0, 0), 1.0)
+    refusal("jaw: specimen = no disc, must be one", lambda: rig_of(box).jaw((0, 0, 0), 1.0))

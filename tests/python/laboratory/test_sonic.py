@@ -8,7 +8,6 @@ import json
 
 import numpy as np
 import pytest
-import yade
 from refusals import refusal
 from scenes import fresh
 
@@ -243,10 +242,6 @@ def test_what_no_pulse_has_is_refused(bar):
     refusal("run: model of sonic = 'jcfpm'", flexpm.run, "sonic", bar, model="jcfpm")
     refusal("wavelength = .* must be >= 20", flexpm.run, "sonic", Specimen.box(0.009, 0.009, 0.014))
     built = fresh(bar, dynamic=True)
-    refusal("rig: dynamic = True, must be False for a solid", flexpm.rig, built)
     built.run(3)
     with pytest.raises(ValueError, match=r"resetEnergyBalance: steps = 3, must be 0"):
         built.solver.resetEnergyBalance()
-    yade.O.reset()
-    with pytest.raises(InputError, match="gravity = 3, refined, 9.8, must be left out for a solid"):
-        flexpm.build(bar, dynamic=True, gravity=9.8)

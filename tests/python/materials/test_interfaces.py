@@ -228,7 +228,7 @@ def test_options_change_pairs_in_any_order_and_studies_take_them():
     assert law(again, "k-feldspar", "quartz")["cohesion"] == 15e6
     for label in ("interface.quartz/mica.cohesion", "interface.quartz/biotite.young"):
         refusal(r"mica|young", rock().with_set, {label: 1e6})
-    refusal("must be a number", rock().with_set, ["interface.quartz/biotite.cohesion=much"])
+    refusal("must be a number", lambda: rock().with_set(["interface.quartz/biotite.cohesion=much"]))
 
 
 def named(*names):

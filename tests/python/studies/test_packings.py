@@ -64,7 +64,7 @@ def test_seeds_are_numbers_and_ranges_in_the_order_given(text, seeds):
     ],
 )
 def test_wrong_seeds_are_refused(text, message):
-    refusal(message, Seeds().convert, text, click.Option(["--seeds"]), None)
+    refusal(message, lambda: Seeds().convert(text, click.Option(["--seeds"]), None))
 
 
 def test_means_leave_out_failed_and_lost_runs():
