@@ -13,16 +13,22 @@ from docutils.parsers.rst import Directive
 PACKAGE = Path(__file__).resolve().parent.parent / "py"
 
 BUILD = PACKAGE.parent / os.environ.get("FLEXPM_BUILD_DIR", "build")
-sys.path[:0] = [str(Path(__file__).resolve().parent / "extensions"), str(BUILD / "python")]
+DOC = Path(__file__).resolve().parent
+sys.path[:0] = [str(DOC / "extensions"), str(DOC / "figures"), str(BUILD / "python")]
 
 project = "flexpm"
 author = "The flexpm developers"
 copyright = author
 release = re.search(r'__version__ = "(.*)"', (PACKAGE / "flexpm" / "_version.py").read_text())[1]
 extensions = [
-    *("availability", "result_schema", "rooms", "yade_classes"),
-    *("sphinx.ext.autodoc", "sphinx.ext.napoleon"),
+    *("availability", "result_schema", "rooms", "test_pages", "yade_classes"),
+    *("sphinx.ext.autodoc", "sphinx.ext.napoleon", "matplotlib.sphinxext.plot_directive"),
 ]
+# sketches of doc/figures, which a build plots
+plot_formats = ["svg"]
+plot_html_show_formats = plot_html_show_source_link = False
+plot_pre_code = "import setups"
+plot_rcparams = {"savefig.bbox": "tight", "svg.hashsalt": "flexpm"}
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # docstrings say more than types
 graphviz_output_format = "svg"

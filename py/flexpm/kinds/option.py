@@ -118,7 +118,8 @@ def control_of(*measures: str) -> Option:
     """The option of tests in which one of several measures can grow at the rate, first the ends."""
     return Option(
         "control",
-        "What grows at the loading rate; the ends go back where the specimen snaps back",
+        "Quantity that grows at the loading rate; the loaded part moves back where the specimen "
+        "snaps back",
         choices=measures,
         default=measures[0],
         open="displacement of the ends",
@@ -130,7 +131,7 @@ JAW_RADIUS = "jaw_radius"
 #: Friction of the ends of a solid.
 END_FRICTION = Option(
     "end_friction",
-    "Friction coefficient of the ends of a solid, from the loading on",
+    "Friction coefficient between the platens and a 3D specimen, active during the loading",
     bounds=Bounds(at_least=0.0, at_most=10.0),
     default="0, smooth ends",
     open="0, smooth ends",

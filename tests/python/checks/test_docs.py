@@ -19,6 +19,7 @@ import flexpm._api
 from flexpm import __version__, _flexpm
 from flexpm._plugin import load
 from flexpm.cli import main
+from flexpm.kinds.registry import KINDS
 from flexpm.materials.material import preset_names
 from flexpm.results.cracks import Crack
 from flexpm.results.record import COLUMNS
@@ -87,9 +88,18 @@ def absent(text):
     return {name for name in named if "NAME" not in name and not any(ROOT.glob(name))}
 
 
-@pytest.mark.parametrize("page", [page.stem for page in sorted(DOC.glob("*.rst"))])
+@pytest.mark.parametrize(
+    "page", [str(page.relative_to(DOC)) for page in sorted(DOC.rglob("*.rst"))]
+)
 def test_files_that_pages_name_exist(page):
-    assert absent((DOC / f"{page}.rst").read_text()) == set()
+    assert absent((DOC / page).read_text()) == set()
+
+
+def test_each_test_has_its_page():
+    pages = {page.stem for page in (DOC / "tests").glob("*.rst")}
+    assert pages == {*KINDS}
+    index = (DOC / "tests.rst").read_text()
+    assert {name for name in KINDS if f":doc:`tests/{name}`" not in index} == set()
 
 
 def test_a_file_that_is_gone_is_found():
@@ -118,6 +128,7 @@ def test_arrays_and_columns_of_the_files_are_documented():
 
 def test_documented_arrays_exist():
     tables = (DOC / "files.rst").read_text().split("Arrays over points")[1]
+    tables = tables.split("\nFiles of 3D runs\n")[0]
     named = set(re.findall(r"^   (``.*``) \|", tables, re.MULTILINE))
     documented = literals("\n".join(named))
     arrays = {**point_arrays(wall()), **cell_arrays(wall())}

@@ -69,7 +69,7 @@ KIND = TestKind(
         Option("length", "Length of a beam", "m", default="0.18; its height: 0.04", size="width"),
         Option(
             "span",
-            "Distance of the supports",
+            "Distance between the supports",
             "m",
             default="4 times the height, or 8/9 of the length",
         ),

@@ -66,7 +66,7 @@ KIND = TestKind(
     options=(
         Option(
             JAW_RADIUS,
-            "Of curved jaws in place of the plates, of a solid disc",
+            "Radius of curved jaws that replace the flat plates of a 3D disc",
             "m",
             default="flat plates",
             open="flat plates",

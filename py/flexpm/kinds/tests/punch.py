@@ -141,12 +141,15 @@ KIND = TestKind(
     options=(
         Option(
             "notch",
-            "Depth of each of four notches, a pair in line from above and below",
+            "Depth of each of the four notches, which form two pairs: one notch from above, one "
+            "from below",
             "m",
             NOT_NEGATIVE,
             default="0.2 of the height",
         ),
-        Option("distance", "Distance of the pairs of notches", "m", default="0.4 of the width"),
+        Option(
+            "distance", "Distance between the two pairs of notches", "m", default="0.4 of the width"
+        ),
         slid.WAY,
     ),
     without=("stop_ratio", "max_strain"),

@@ -75,7 +75,7 @@ KIND = TestKind(
         "solid-half-disc": Variant(_SOLID_RATES),
     },
     options=(
-        Option("span", "Distance of the supports", "m", default="0.6 of the diameter"),
+        Option("span", "Distance between the supports", "m", default="0.6 of the diameter"),
         Option(
             "notch", "Depth of a notch in the middle", "m", NOT_NEGATIVE, default="half the radius"
         ),

@@ -66,7 +66,7 @@ KIND = TestKind(
         "box": Variant(slid.SOLID_RATES, sizes={"width": 0.04, "depth": 0.02, "height": 0.02}),
     },
     options=(
-        Option("normal_stress", "On the upper half", "Pa", default="1e6"),
+        Option("normal_stress", "Normal stress on the upper half", "Pa", default="1e6"),
         slid.WAY,
     ),
     without=("stop_ratio", "max_strain"),

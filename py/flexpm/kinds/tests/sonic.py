@@ -45,7 +45,7 @@ KIND = TestKind(
         Option("wave", "Pressure or shear wave", choices=WAVES, default=WAVES[0]),
         Option(
             SIDES,
-            "Sides, held across the motion of the wave, or free: a thin bar",
+            "Sides: held perpendicular to the motion of the wave, or free as in a thin bar",
             choices=(HELD, FREE),
             default=HELD,
             open=HELD,

@@ -48,7 +48,7 @@ KIND = TestKind(
     options=(
         Option(
             "second_confinement",
-            "Pressure on front and back of a box, across y",
+            "Pressure on the front and back faces of a box, along y",
             "Pa",
             _PRESSURE,
             default="the confinement",
