@@ -28,6 +28,7 @@ extensions = [
 plot_formats = ["svg"]
 plot_html_show_formats = plot_html_show_source_link = False
 plot_pre_code = "import setups"
+plot_apply_rcparams = True
 plot_rcparams = {"savefig.bbox": "tight", "svg.hashsalt": "flexpm"}
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # docstrings say more than types
@@ -117,7 +118,7 @@ class LoadingRates(Directive):
                 line += nodes.entry("", nodes.paragraph("", text))
             (body if number else head).append(line)
         group += [head, body]
-        table = nodes.table()
+        table = nodes.table("", classes=["colwidths-given"])
         table += group
         return [table]
 

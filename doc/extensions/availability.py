@@ -20,7 +20,7 @@ def _table(
     group = nodes.tgroup(cols=len(widths))
     group += [nodes.colspec(colwidth=width) for width in widths]
     group += [nodes.thead("", _row(head)), nodes.tbody("", *map(_row, rows))]
-    return nodes.table("", group)
+    return nodes.table("", group, classes=["colwidths-given"])
 
 
 def _row(cells: Sequence[Cell]) -> nodes.row:

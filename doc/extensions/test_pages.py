@@ -24,7 +24,7 @@ def _table(head: Sequence[str], rows: Iterator[Sequence[str]], widths: Sequence[
     group = nodes.tgroup(cols=len(widths))
     group += [nodes.colspec(colwidth=width) for width in widths]
     group += [nodes.thead("", _row(head)), nodes.tbody("", *map(_row, rows))]
-    return nodes.table("", group)
+    return nodes.table("", group, classes=["colwidths-given"])
 
 
 def _row(cells: Sequence[str]) -> nodes.row:
@@ -52,7 +52,7 @@ class TestSpecimens(Directive):
     def run(self) -> list[nodes.Node]:
         """Return a table with a line for each shape."""
         head = ("Dimension", "Shape", "Sizes and defaults [m]", "Models")
-        return [_table(head, self._rows(_kind(self.arguments[0])), (12, 18, 38, 32))]
+        return [_table(head, self._rows(_kind(self.arguments[0])), (17, 19, 34, 30))]
 
     @staticmethod
     def _rows(kind: Any) -> Iterator[Sequence[str]]:
@@ -79,7 +79,7 @@ class TestOptions(Directive):
     def run(self) -> list[nodes.Node]:
         """Return a table with a line for each option."""
         head = ("Option", "Unit", "Default", "Meaning")
-        return [_table(head, self._rows(_kind(self.arguments[0])), (24, 8, 26, 42))]
+        return [_table(head, self._rows(_kind(self.arguments[0])), (26, 8, 24, 42))]
 
     @staticmethod
     def _rows(kind: Any) -> Iterator[Sequence[str]]:
