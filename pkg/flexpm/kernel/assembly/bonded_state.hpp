@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  The part of a specimen's saved state that does not depend on the dimension: grains, the
-/// parts that hold and load them, the motion of the loading, gravity, and the energy balance. The contacts
-/// and the boundary are in Assembly (2D) and SolidState (3D), which derive from it. SI units,
-/// tension positive.
+/// parts that hold and load them, the motion of the loading, gravity, and the energy balance. The
+/// contacts and the boundary are in Assembly (2D) and SolidState (3D), which derive from it. SI
+/// units, tension positive.
 #pragma once
 
 #include <flexpm/kernel/assembly/energy_ledger.hpp>
