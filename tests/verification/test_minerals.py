@@ -226,7 +226,7 @@ def changed(**changes):
     ],
 )
 def test_wrong_minerals_are_refused_in_one_line(data, message):
-    refusal(message, minerals.description, Material.from_dict(data), "flexible")
+    refusal(message, lambda: minerals.description(Material.from_dict(data), "flexible"))
 
 
 @pytest.mark.parametrize("model", ["inner", "inner-un"])
