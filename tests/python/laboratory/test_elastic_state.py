@@ -187,3 +187,73 @@ def test_the_scale_of_a_loading_is_that_stiffness_whichever_part_is_pinned():
         found += [rig.scales().modulus, rig.elastic(way=1e-6).load / 1e-6]
     # held once along x: statically determinate, so that it does not matter where
     np.testing.assert_allclose(found, found[0], rtol=1e-3)
+
+
+def rig_in(dimension: int, width: float, height: float, model: str):
+    """A rig of a bar as deep as thick, and what makes a place or direction of its x and height."""
+    yade.O.reset()
+    if dimension == 2:
+        bar = flexpm.Specimen.rectangle(width, height, THICKNESS, seed=3)
+        return flexpm.PartRig(flexpm.build(bar, model=model)), lambda x, y, _=0.0: (x, y)
+    bar = flexpm.Specimen.box(width, THICKNESS, height, seed=3)
+    rig = flexpm.PartRig(flexpm.build(bar, "augig-table7", model=model))
+    return rig, lambda x, z, y=0.5 * THICKNESS: (x, y, z)
+
+
+ONE_SIDED = pytest.mark.parametrize(
+    ("dimension", "model"), [(2, "flexible"), (2, "rigid"), (3, "flexible"), (3, "rigid")]
+)
+
+
+@ONE_SIDED
+def test_a_beam_lifts_off_the_roller_that_would_have_to_pull(dimension, model):
+    rig, at = rig_in(dimension, 0.04, 0.008, model)
+    far, middle, near = (rig.support(at(x, 0.0), pinned=x == 0.02) for x in (0.004, 0.02, 0.036))
+    head = rig.support(at(0.026, 0.008))
+    rig.drive(head, at(0.0, -1.0, 0.0), against=(far, middle, near))
+    state = rig.elastic(way=1e-6)
+    assert state.solutions > 1
+    up = [state.force(one)[-1] / state.load for one in (far, middle, near)]
+    # levers of 6 and 10 mm; in 2D a roller lies on edges near its place, in 3D on lines there
+    assert up == pytest.approx([0.0, 0.625, 0.375], abs=0.1 if dimension == 2 else 1e-4)
+    assert up[0] == 0.0 and sum(up) == pytest.approx(1.0, rel=1e-4)
+    # the load of that way gives it back, half of it half
+    assert rig.elastic(load=0.5 * state.load).way == pytest.approx(0.5e-6, rel=1e-6)
+    # the roller that has let go does not stiffen it
+    alone, at = rig_in(dimension, 0.04, 0.008, model)
+    left = [alone.support(at(x, 0.0), pinned=x == 0.02) for x in (0.02, 0.036)]
+    alone.drive(alone.support(at(0.026, 0.008)), at(0.0, -1.0, 0.0), against=left)
+    assert alone.elastic(way=1e-6).load == pytest.approx(state.load, rel=1e-6)
+
+
+@ONE_SIDED
+def test_a_block_that_is_tilted_stands_on_its_edge(dimension, model):
+    rig, at = rig_in(dimension, WIDTH, HEIGHT, model)
+    length = 0.5 * WIDTH if dimension == 2 else (0.5 * WIDTH, THICKNESS, 0.002)
+    halves = [rig.support(at(x * WIDTH, 0.0), length) for x in (0.25, 0.75)]
+    head = rig.support(at(0.875 * WIDTH, HEIGHT), pinned=True)
+    rig.drive(head, at(0.0, -1.0, 0.0), against=halves)
+    state = rig.elastic(way=1e-6)
+    # a rigid one would press on thrice the distance from the load to the edge, 3/8 of its width
+    lifted, pressed = (state.force(one) for one in halves)
+    # in 2D both halves lie on the edges that the line between them crosses
+    assert 0.0 <= lifted[-1] <= (0.1 * state.load if dimension == 2 else 0.0)
+    assert lifted[-1] + pressed[-1] == pytest.approx(state.load, rel=1e-4)
+    total = np.sum([state.force(one) for one in (*halves, head)], axis=0)
+    np.testing.assert_allclose(total, 0.0, atol=1e-4 * state.load)
+
+
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_what_is_pulled_off_a_plate_bears_nothing_in_3d(model):
+    rig, _ = rig_in(3, WIDTH, HEIGHT, model)
+    base = rig.hold(box=((0.0, 0.0, 0.0), (0.6 * WIDTH, THICKNESS, 0.2 * HEIGHT)))
+    right = rig.platen(1)
+    rig.drive(right, (1.0, 0.0, 0.0), against=base)
+    state = rig.elastic(way=1e-6)  # it leaves
+    assert state.force(right) == state.force(base) == (0.0, 0.0, 0.0)
+    assert np.abs(state.positions - state.reference).max() == 0.0
+    pushed = rig.elastic(way=-1e-6)
+    assert pushed.force(right)[0] < 0.0
+    assert pushed.force(base)[0] == pytest.approx(-pushed.force(right)[0], rel=1e-4)
+    with pytest.raises(flexpm.InputError, match="nothing resists it"):
+        rig.elastic(load=1.0)

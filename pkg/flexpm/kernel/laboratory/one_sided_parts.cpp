@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace flexpm {
 
@@ -46,13 +47,19 @@ SolidState with_open(SolidState s, const OpenPoints& open, double share)
     return s;
 }
 
-/// Force of the driven parts under the pressures, and the way of a machine's crosshead, where the
-/// plate itself stays.
-double crosshead_way(const SolidState& s, const PartGeometry& parts, double load)
+/// Way of a machine's crosshead where pressures alone act and the plate itself stays: the spring
+/// bears what its own plate does.
+double crosshead_way(
+    const SolidState& s, const PartGeometry& parts, const std::vector<SolidPartShare>& pressed)
 {
     if (parts.driven.empty()) return 0.0;
-    const double machine = s.plates[parts.driven.front()].machine_stiffness;
-    return machine > 0.0 ? load / machine : 0.0;
+    const int plate = parts.driven.front();
+    const double machine = s.plates[plate].machine_stiffness;
+    double way = 0.0;
+    for (const SolidPartShare& one : pressed)
+        if (machine > 0.0)
+            way += one.factor * dot(one.small.state.plates[plate].force, parts.direction) / machine;
+    return way;
 }
 
 /// The linear solution of points that bear so.
@@ -72,7 +79,7 @@ SolidPartSolution linear_solution(
         const double whole = 1.0 / pressed.way;
         add(std::move(pressed), whole);
     }
-    found.way = crosshead_way(s, parts, found.load);
+    found.way = crosshead_way(s, parts, found.shares);
     if (!asked.load && asked.way == 0.0 && found.way == 0.0) return found;
     SolidPartState moved = elastic_part_state(s, parts, dt);
     if (asked.load && !(std::fabs(moved.load) > 0.0))
@@ -156,8 +163,8 @@ SolidPartSolution find_elastic_state(
         open = std::move(next);
     }
     fail("find_elastic_state: solutions", number(most_plain_solutions),
-        "must be fewer until points of plates stay open or closed; hold the specimen by parts that "
-        "are bonded");
+        "must be fewer until points of plates stay open or closed; bond the plates that hold the "
+        "specimen, or lay them without friction");
 }
 
 }  // namespace flexpm
