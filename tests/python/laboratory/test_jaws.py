@@ -267,7 +267,7 @@ def test_a_jaw_of_the_discs_own_radius_touches_all_of_its_angle(disc):
     assert high.normal == pytest.approx((-0.8, 0.0, -0.6))
     rig.drive(high, (-0.8, 0.0, -0.6), against=low)
     # pushed aside over a smooth support, its points neither stay open nor stick
-    with pytest.raises(flexpm.InputError, match="points of plates stay open or closed"):
+    with pytest.raises(InputError, match="points of plates stay open or closed"):
         rig.elastic(way=1e-6)
     plates = rig.built.solver.plates()
     assert plates[high.number]["radius"] == pytest.approx(RIM, rel=0.02)  # of the prism
