@@ -191,12 +191,11 @@ def test_the_scale_of_a_loading_is_that_stiffness_whichever_part_is_pinned():
 
 def rig_in(dimension: int, width: float, height: float, model: str):
     """A rig of a bar as deep as thick, and what makes a place or direction of its x and height."""
-    yade.O.reset()
     if dimension == 2:
         bar = flexpm.Specimen.rectangle(width, height, THICKNESS, seed=3)
-        return flexpm.PartRig(flexpm.build(bar, model=model)), lambda x, y, _=0.0: (x, y)
+        return flexpm.PartRig(fresh(bar, model=model)), lambda x, y, _=0.0: (x, y)
     bar = flexpm.Specimen.box(width, THICKNESS, height, seed=3)
-    rig = flexpm.PartRig(flexpm.build(bar, "augig-table7", model=model))
+    rig = flexpm.PartRig(fresh(bar, "augig-table7", model=model))
     return rig, lambda x, z, y=0.5 * THICKNESS: (x, y, z)
 
 
