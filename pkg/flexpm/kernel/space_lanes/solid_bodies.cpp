@@ -142,6 +142,17 @@ Vector axis_vector(int axis)
     return { axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0 };
 }
 
+/// Force and moment on a rigid grain, whose centre gets the force; it has the weight before.
+FLEXPM_INLINE Resultant forces_on_body(SolidState& s, int grain, int centre)
+{
+    Grains& grains = s.grains;
+    Resultant on;
+    variant_of<sum_forces>()(body_nodes(s, grain), on);
+    if (s.has_gravity()) on.force = on.force + space_vector(grains.force, centre);
+    set_space_vector(grains.force, centre, on.force);
+    return on;
+}
+
 }  // namespace
 
 void move_body(SolidState& s, int block, double dt)
@@ -155,22 +166,17 @@ void move_body(SolidState& s, int block, double dt)
     place_body(s, grain, way);
 }
 
-Vector sum_body_forces(SolidState& s, int block)
+void sum_body_forces(SolidState& s, int block)
 {
-    Grains& grains = s.grains;
-    const int grain = grains.in_slot[block * lanes], centre = grains.centre(grain);
-    Resultant on;
-    variant_of<sum_forces>()(body_nodes(s, grain), on);
-    if (s.has_gravity()) on.force = on.force + space_vector(grains.force, centre);
-    set_space_vector(grains.force, centre, on.force);
-    return on.moment;
+    const int grain = s.grains.in_slot[block * lanes];
+    forces_on_body(s, grain, s.grains.centre(grain));
 }
 
 void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums)
 {
     Grains& grains = s.grains;
     const int grain = grains.in_slot[block * lanes], centre = grains.centre(grain);
-    const Vector moment = sum_body_forces(s, block);
+    const Vector moment = forces_on_body(s, grain, centre).moment;
     const double inverse_mass = grains.inverse_mass[grains.scalar_index(centre)];
     const Array<double>& undamped = s.undamped().velocity;
     for (int axis = 0; axis < grains.layout.dimension; ++axis) {

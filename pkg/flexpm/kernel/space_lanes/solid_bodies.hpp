@@ -13,8 +13,8 @@ namespace flexpm {
 void move_body(SolidState& s, int block, double dt);
 
 /// Give the centre of a rigid grain, which has its weight, the sum of that and the forces on all
-/// other nodes. Returns the moment of these about it [N m].
-Vector sum_body_forces(SolidState& s, int block);
+/// other nodes, by its block.
+void sum_body_forces(SolidState& s, int block);
 
 /// Sum force and moment on a rigid grain from those on its nodes, and integrate its velocity and
 /// its angular momentum. The spin half a step later is that whose turn in the middle of the step
