@@ -96,17 +96,6 @@ template <class State> void pull(State& s)
     flexpm::set_gravity(s, { 0.0, plane ? -g : 0.0, plane ? 0.0 : -g });
 }
 
-template <class State> void run(State& s, int steps, double dt, double damping)
-{
-    flexpm::StepOptions o;
-    o.dt = dt;
-    o.damping = damping;
-    for (int i = 0; i < steps; ++i) {
-        o.measure = i + 1 == steps;
-        flexpm::step(s, o);
-    }
-}
-
 template <class State> void check_fall(State s, double damping)
 {
     const double dt = 1e-7, falls = g * (1.0 - damping);
@@ -115,7 +104,7 @@ template <class State> void check_fall(State s, double damping)
     begin(s);
     // without damping: the sign of a velocity of 0 makes the first step undamped
     const int n = 200;
-    run(s, n, dt, damping);
+    driven::run_measured(s, n, damping, dt);
     const double speed = falls * (n - 1) * dt + g * dt;
     const double way = falls * dt * dt * (n - 1) * (n - 2) / 2.0 + g * dt * dt * (n - 1);
     for (int grain = 0; grain < s.grains.count; ++grain) {
@@ -142,7 +131,7 @@ template <class State> void check_column(State s, bool rigid)
         s.grains.prescribed[down(s, n)] = 1;
     pull(s);
     begin(s);
-    run(s, 8000, dt, 0.7);
+    driven::run_measured(s, 8000, 0.7, dt);
     double settled = 0.0;
     for (int above = rows - 1; above > 0; --above)
         settled += above * own / (1e11 * face_area(s));
@@ -189,7 +178,7 @@ TEST_CASE("deformable grains hand their weight to what holds them", "[gravity]")
     flexpm::prescribe(a, bottom, 1, 0.0);
     flexpm::set_gravity(a, { 0.0, -g });
     flexpm::reset_energy_balance(a);
-    run(a, 6000, dt, 0.7);
+    driven::run_measured(a, 6000, 0.7, dt);
     CHECK(flexpm::reaction(a, bottom, 1) == Approx(6.0 * mass * g).epsilon(1e-6));
     const auto e = flexpm::energies(a);
     CHECK(e.potential < 0.0);
@@ -202,9 +191,9 @@ TEST_CASE("gravity that is set on a moved assembly is booked", "[gravity]")
     flexpm::set_real_masses(a, 0.0);
     flexpm::set_motion(a.grains, 0, { 0.0, 1.0 }, 0.0, 1e-6);
     flexpm::reset_energy_balance(a);
-    run(a, 100, 1e-6, 0.0);
+    driven::run_measured(a, 100, 0.0, 1e-6);
     flexpm::set_gravity(a, { 0.0, -g });
-    run(a, 100, 1e-6, 0.0);
+    driven::run_measured(a, 100, 0.0, 1e-6);
     const auto e = flexpm::energies(a);
     const double height = a.grains.displacement[component(a.grains.centre(0), 1)];
     CHECK(height > 1.9e-4);
@@ -227,7 +216,7 @@ TEST_CASE("grains of the inside, too, come to rest on a wall", "[gravity][plate]
     flexpm::reset_energy_balance(a);
     double error = 0.0;
     for (int i = 0; i < 200; ++i) {
-        run(a, static_cast<int>(2e-4 / dt), dt, damping);
+        driven::run_measured(a, static_cast<int>(2e-4 / dt), damping, dt);
         const auto e = flexpm::energies(a);
         error = std::max(error, std::fabs(balance::miss(e)));
     }

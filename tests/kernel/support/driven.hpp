@@ -4,6 +4,7 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/plane_lanes/rigid_grain.hpp>
+#include <flexpm/kernel/step/solid_step.hpp>
 #include <flexpm/kernel/step/step.hpp>
 
 #include "support/specimens.hpp"
@@ -68,14 +69,14 @@ inline void run(Assembly& a, int steps, double damping = 0.0)
 }
 
 /// Steps the last of which is measured.
-inline void run_measured(Assembly& a, int steps, double damping = 0.7, double dt = 1.0)
+template <class State> void run_measured(State& s, int steps, double damping = 0.7, double dt = 1.0)
 {
     flexpm::StepOptions options;
     options.damping = damping;
     options.dt = dt;
     for (int i = 0; i < steps; ++i) {
         options.measure = i + 1 == steps;
-        flexpm::step(a, options);
+        flexpm::step(s, options);
     }
 }
 
