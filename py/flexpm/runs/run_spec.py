@@ -43,6 +43,9 @@ _REAL_MASSES = 1
 #: Part of the results number of runs of several minerals; 1: the loading rate follows their weakest
 #: contacts, which was that of their mean.
 _MINERALS = 1
+#: Part of the results number of runs of 3D specimens with rigid grains; 1: their contacts read the
+#: motions of the grains in place of those of nodes, which rounds in another way.
+_RIGID_SOLIDS = 1
 
 
 @dataclass(frozen=True)
@@ -212,7 +215,8 @@ def results_number(
     kind = kind_of(test)
     variant = kind.variant_in(solid=solid)
     number = 1 if variant is None else variant.results.get(model, 1)
-    return number + _EDGE_NORMALS * edge_normals + _REAL_MASSES * dynamic + _MINERALS * minerals
+    number += _EDGE_NORMALS * edge_normals + _REAL_MASSES * dynamic + _MINERALS * minerals
+    return number + _RIGID_SOLIDS * (solid and model == "rigid")
 
 
 def results_of(run: RunInputs) -> int:

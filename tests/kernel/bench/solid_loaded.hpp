@@ -5,6 +5,7 @@
 
 #include <flexpm/kernel/core/random.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/statics/solid_loading.hpp>
 #include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/step/solid_step.hpp>

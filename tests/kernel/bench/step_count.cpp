@@ -27,8 +27,11 @@ bool step_solid(const std::string& name)
     const bool broken = name.find("torn") != std::string::npos;
     flexpm::SolidState s = loaded::cube(along, rigid);
     loaded::strain(s, -steady, broken ? torn : 0.0);
+    flexpm::StepOptions o;
+    o.leave_nodes = true;
     for (int i = 0; i < 40; ++i)
-        flexpm::step(s, {});
+        flexpm::step(s, o);
+    flexpm::show_nodes(s);
     const flexpm::Energies e = flexpm::energies(s);
     std::printf("%d grains, %d contacts, elastic %.3g J, damage %.3g J, friction %.3g J\n",
         s.grains.count, s.contacts.count, e.elastic, e.damage, e.friction);

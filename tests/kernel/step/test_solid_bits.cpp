@@ -4,6 +4,8 @@
 #include "support/catch.hpp"
 
 #include <flexpm/kernel/core/instruction_set.hpp>
+#include <flexpm/kernel/measure/grain_stress.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 
 #include "support/solid_states.hpp"
 
@@ -108,25 +110,63 @@ TEST_CASE(
 
 TEST_CASE("A solid has the same bits on every instruction set", "[solids]")
 {
-    const SolidState start = flying();
-    const InstructionSet before = instruction_set();
-    use_instruction_set(InstructionSet::baseline);
-    const SolidState expected = stepped(start, 1);
-    for (const InstructionSet set : available_instruction_sets()) {
-        use_instruction_set(set);
-        CAPTURE(name_of(set));
-        CHECK(same(expected, stepped(start, 1)));
+    for (const bool rigid : { false, true }) {
+        const SolidState start = flying(40, rigid);
+        const InstructionSet before = instruction_set();
+        use_instruction_set(InstructionSet::baseline);
+        const SolidState expected = stepped(start, 1);
+        for (const InstructionSet set : available_instruction_sets()) {
+            use_instruction_set(set);
+            CAPTURE(name_of(set), rigid);
+            CHECK(same(expected, stepped(start, 1)));
+        }
+        use_instruction_set(before);
     }
-    use_instruction_set(before);
 }
 
 TEST_CASE("The plan of a solid that was loaded continues to the same bits", "[solids]")
 {
-    const SolidState whole = stepped(flying(), 1, 120);
-    SolidState half = stepped(flying(), 1, 60);
-    half.plan = {};
-    prepare_step(half);
-    CHECK(same(whole, stepped(half, 1, 60)));
+    for (const bool rigid : { false, true }) {
+        const SolidState whole = stepped(flying(40, rigid), 1, 120);
+        SolidState half = stepped(flying(40, rigid), 1, 60);
+        half.plan = {};
+        prepare_step(half);
+        CHECK(same(whole, stepped(half, 1, 60)));
+    }
+}
+
+TEST_CASE("Whether nodes of rigid grains are left behind changes no bit of a run", "[solids]")
+{
+    SolidState s = flying(40, true);
+    const SolidState expected = stepped(s, 1);
+    StepOptions o { 2e-8, 0.3, 1, true };
+    o.leave_nodes = true;
+    for (int k = 0; k < 200; ++k)
+        step(s, o);
+    CHECK(!same(expected.grains.displacement, s.grains.displacement));
+    show_nodes(s);
+    CHECK(same(expected, s));
+}
+
+TEST_CASE("Forces on the nodes of rigid grains come to the wrenches that move them", "[solids]")
+{
+    const SolidState s = stepped(flying(40, true), 1);
+    double largest = 0.0, arm = 0.0, force = 0.0, moment = 0.0;
+    for (int g = 0; g < s.grains.count; ++g) {
+        const double* wrench = s.plan.wrenches.data() + s.grains.block_of(g) * WrenchRow::count;
+        Resultant on;
+        for_each_corner_force(s.grains, g, [&](Vector f, Vector r) {
+            on = { on.force + f, on.moment + cross(r, f) };
+            largest = std::max(largest, norm(f));
+            arm = std::max(arm, norm(r));
+        });
+        const auto row = [&](int i) { return Vector { wrench[i], wrench[i + 1], wrench[i + 2] }; };
+        force = std::max(force, norm(on.force - row(WrenchRow::force)));
+        moment = std::max(moment, norm(on.moment - row(WrenchRow::moment)));
+    }
+    CHECK(largest > 1.0);
+    CHECK(force < 1e-10 * largest);
+    CHECK(moment < 1e-10 * largest * arm);
 }
 
 TEST_CASE("A free solid keeps its momenta and energy while faces open, slide and part", "[solids]")

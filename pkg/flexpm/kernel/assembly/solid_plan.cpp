@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/assembly/solid_plan.hpp>
 
+#include <flexpm/kernel/assembly/access.hpp>
+
 #include <algorithm>
 
 namespace flexpm {
@@ -67,6 +69,17 @@ void find_parcels(SolidState& s)
     for (int block = 0; block < c.blocks(); ++block) {
         if (!reaches_out(s, c.in_slot[block * lanes])) continue;
         plan.first_parcel[block] = values;
+        if (s.is_rigid()) {
+            for (int i = 0; i < 2 * lanes; ++i) {
+                const int contact = c.in_slot[block * lanes + i % lanes];
+                if (contact >= 0) {
+                    of_grain[s.grains.block_of(c.pairs[contact][i / lanes])].push_back(
+                        { 0, values + i * WrenchRow::count });
+                }
+            }
+            values += 2 * lanes * WrenchRow::count;
+            continue;
+        }
         const int first = c.block_nodes[block];
         for (int i = first; i < c.block_nodes[block + 1]; ++i) {
             const int offset = i - first, side = offset / lanes % 2;
@@ -84,6 +97,106 @@ void find_parcels(SolidState& s)
     for (const auto& sums : of_grain) {
         plan.sums.insert(plan.sums.end(), sums.begin(), sums.end());
         plan.block_sums.push_back(static_cast<int>(plan.sums.size()));
+    }
+}
+
+/// Corner of a contact at the reference.
+Vector place_of(const FaceContacts& c, int contact, int corner)
+{
+    const int row = c.block_nodes[c.block_of(contact)] / 2 * 3 + corner * 3 * lanes;
+    const double* x = c.places.data() + row + c.lane_of(contact);
+    return { x[0], x[lanes], x[2 * lanes] };
+}
+
+/// Places of the points of a contact at the reference.
+std::vector<Vector> point_places(const FaceContacts& c, int contact)
+{
+    std::vector<Vector> places(c.points_of(contact));
+    for (std::size_t p = 0; p < places.size(); ++p)
+        for (int k = 0; k < c.corners_of(contact); ++k)
+            places[p] =
+                places[p] + c.share(contact, static_cast<int>(p), k) * place_of(c, contact, k);
+    return places;
+}
+
+/// Write a contact of rigid grains to its lane of RigidFaceRow.
+void write_rigid_face(const SolidState& s, int contact, double* rows)
+{
+    const FaceContacts& c = s.contacts;
+    const auto write = [&](int row, Vector v) {
+        rows[row * lanes] = v.x;
+        rows[(row + 1) * lanes] = v.y;
+        rows[(row + 2) * lanes] = v.z;
+    };
+    std::vector<Vector> places = point_places(c, contact);
+    const double sum = contact_area(c, contact);
+    Vector middle;
+    for (std::size_t p = 0; p < places.size(); ++p)
+        middle = middle + (c.area(contact, static_cast<int>(p)) / sum) * places[p];
+    Vector xx_yy_zz, yz_xz_xy;
+    double radius = 0.0;
+    for (std::size_t p = 0; p < places.size(); ++p) {
+        const Vector r = places[p] - middle;
+        const double area = c.area(contact, static_cast<int>(p));
+        xx_yy_zz = xx_yy_zz + area * Vector { r.x * r.x, r.y * r.y, r.z * r.z };
+        yz_xz_xy = yz_xz_xy + area * Vector { r.y * r.z, r.x * r.z, r.x * r.y };
+        radius = std::max(radius, norm(r));
+        write(RigidFaceRow::points + 3 * static_cast<int>(p), r);
+    }
+    Vector twice_area;
+    const Vector first = place_of(c, contact, 0);
+    for (int k = 1; k + 1 < c.corners_of(contact); ++k) {
+        twice_area = twice_area
+            + cross(place_of(c, contact, k) - first, place_of(c, contact, k + 1) - first);
+    }
+    const auto arm = [&](int side) {
+        const int centre = s.grains.centre(c.pairs[contact][side]);
+        return middle - space_vector(s.grains.reference, centre);
+    };
+    write(RigidFaceRow::arm_a, arm(0));
+    write(RigidFaceRow::arm_b, arm(1));
+    write(RigidFaceRow::area, twice_area);
+    rows[RigidFaceRow::sum * lanes] = sum;
+    write(RigidFaceRow::second, xx_yy_zz);
+    write(RigidFaceRow::second + 3, yz_xz_xy);
+    rows[RigidFaceRow::radius * lanes] = radius;
+    const int end = c.line[c.block_of(contact) * lanes + c.lane_of(contact)];
+    write(RigidFaceRow::line(c.points_of(contact)), place_of(c, contact, end) - first);
+}
+
+/// Faces of rigid grains as a step reads them.
+void find_rigid_faces(SolidState& s)
+{
+    const FaceContacts& c = s.contacts;
+    SolidPlan& plan = s.plan;
+    plan.motions.assign(s.grains.blocks() * RigidMotionRow::count, 0.0);
+    plan.wrenches.assign(s.grains.blocks() * WrenchRow::count, 0.0);
+    plan.body_places.clear();
+    for (int block = 0; block < s.grains.blocks(); ++block) {
+        const int grain = s.grains.in_slot[block * lanes];
+        plan.body_places.push_back({ grain, s.grains.centre(grain) });
+    }
+    plan.face_grains.resize(static_cast<std::size_t>(2) * lanes * c.blocks());
+    plan.block_faces.clear();
+    int values = 0;
+    for (int block = 0; block < c.blocks(); ++block) {
+        plan.block_faces.push_back(values);
+        values += RigidFaceRow::count(c.group_in(block).points) * lanes;
+    }
+    plan.faces.assign(values, 0.0);
+    for (int slot = 0; slot < lanes * c.blocks(); ++slot) {
+        const int block = slot / lanes, lane = slot % lanes;
+        double* rows = plan.faces.data() + plan.block_faces[block] + lane;
+        // padded lanes follow the first one, but bear nothing
+        const bool padded = c.in_slot[slot] < 0;
+        const int contact = c.in_slot[padded ? block * lanes : slot];
+        write_rigid_face(s, contact, rows);
+        for (int row = RigidFaceRow::sum; padded && row < RigidFaceRow::radius; ++row)
+            rows[row * lanes] = 0.0;
+        for (int side = 0; side < 2; ++side) {
+            plan.face_grains[(2 * block + side) * lanes + lane] =
+                s.grains.block_of(c.pairs[contact][side]);
+        }
     }
 }
 
@@ -126,6 +239,21 @@ void find_pressed(SolidState& s)
     plan.first_pressed.push_back(static_cast<int>(plan.pressed.size()));
 }
 
+/// Whether a list has values of a block.
+bool has_any(const std::vector<int>& first, int block)
+{
+    return !first.empty() && first[block] < first[block + 1];
+}
+
+void find_node_loads(SolidState& s)
+{
+    SolidPlan& plan = s.plan;
+    plan.node_loads.clear();
+    for (int block = 0; block < s.grains.blocks(); ++block)
+        plan.node_loads.push_back(
+            has_any(plan.first_press, block) || has_any(plan.first_pressed, block));
+}
+
 }  // namespace
 
 int tile_of(const SolidState& s, int contact)
@@ -147,6 +275,9 @@ void prepare_step(SolidState& s)
     find_parcels(s);
     find_presses(s);
     find_pressed(s);
+    if (!s.is_rigid()) return;
+    find_rigid_faces(s);
+    find_node_loads(s);
 }
 
 }  // namespace flexpm

@@ -302,10 +302,44 @@ struct PlateTouch {
     int index;  ///< of its facets
 };
 
-/// Force on a node that waits until its grain is summed.
+/// Force on a node, or wrench on a rigid grain, that waits until its grain is summed.
 struct Parcel {
-    int node;   ///< offset from the first node of its block
+    int node;   ///< offset from the first node of its block; 0 of a rigid grain
     int place;  ///< index of the x component in SolidPlan::parcels
+};
+
+/// Motion of a rigid grain since the reference, as its contacts read it: [x y z 0] of the way of its
+/// centre [m], and of what its turn adds to vectors along each axis.
+struct RigidMotionRow {
+    enum : int { way = 0, of_x = 4, of_y = 8, of_z = 12, count = 16 };
+};
+
+/// Forces on a rigid grain: [x y z 0] of their sum [N] and of their moment about its centre [N m].
+struct WrenchRow {
+    enum : int { force = 0, moment = 4, count = 8 };
+};
+
+/// Rows of lanes of a block of contacts between rigid grains at the reference, vectors in three.
+/// Places are from the middle of a face, by the areas of its points [m].
+struct RigidFaceRow {
+    enum : int {
+        arm_a = 0,    ///< from the centre of the first grain to the middle [m]
+        arm_b = 3,    ///< from that of the second
+        area = 6,     ///< twice the area vector [m^2]
+        sum = 9,      ///< of the areas of the points; 0 where padded [m^2]
+        second = 10,  ///< of areas times xx, yy, zz, yz, xz, xy of places [m^4]
+        radius = 16,  ///< largest distance of a point
+        points = 17,  ///< places of the points
+    };
+    /// The line from corner 0, after the points.
+    static int line(int points_of) { return points + 3 * points_of; }
+    static int count(int points_of) { return line(points_of) + 3; }
+};
+
+/// Where the values of a rigid grain are.
+struct BodyPlace {
+    int grain;
+    int centre;  ///< offset of its node
 };
 
 /// What a step derives from the state.
@@ -321,7 +355,19 @@ struct SolidPlan {
     std::vector<int> first_parcel;  ///< of each block of contacts in `parcels`; -1: it has none
     std::vector<int> block_sums;    ///< first of each block of grains in `sums`, and the end
     std::vector<Parcel> sums;       ///< in the order of blocks of contacts
-    Array<double> parcels;          ///< [block][corner][side][lane][x y z 0] [N]
+    /// [block][corner][side][lane][x y z 0] [N], or of rigid grains [block][side][lane][WrenchRow]
+    Array<double> parcels;
+
+    // Rigid grains: contacts read their motions and add to their wrenches, so that a step leaves
+    // their nodes behind, see show_nodes(). Nodes on which plates or pressures act go on with them.
+    bool nodes_behind = false;  ///< places of nodes and forces on them are of an earlier step
+    std::vector<std::uint8_t> node_loads;  ///< 1 of blocks of grains on whose nodes something acts
+    std::vector<BodyPlace> body_places;    ///< of each block of grains
+    Array<double> motions;                 ///< [block of grains][RigidMotionRow]
+    Array<double> wrenches;                ///< [block of grains][WrenchRow]
+    std::vector<int> block_faces;          ///< offset of each block of contacts in `faces`
+    Array<double> faces;                   ///< [block of contacts][RigidFaceRow][lane]
+    Array<int> face_grains;                ///< [block of contacts][side][lane]: block of the grain
 
     // contacts of plates on each block of grains, in the order of plates
     std::vector<int> first_press;  ///< of each block, in `presses`, and the end; empty: no plates
@@ -348,6 +394,9 @@ struct SolidState : BondedState {
     /// Grain of each surface triangle, and the pressures on them [Pa]; empty: there was never one.
     const std::vector<int>& facet_grains() const { return surface.grain; }
     const std::vector<double>& pressures() const { return surface.pressure; }
+
+    /// Whether its grains are rigid; else all deform.
+    bool is_rigid() const { return !bodies.empty(); }
 
     /// Whether the spin of a rigid grain is given.
     bool is_spin_held(int grain) const { return !bodies.empty() && bodies[grain].spin_held; }

@@ -41,6 +41,17 @@ inline Quaternion rotation_by(Vector angle)
     return { std::cos(half), (0.5 * ratio) * angle };
 }
 
+/// Rotation by a vector, which is small in most cases, but for its length.
+inline Quaternion scaled_rotation_by(Vector angle)
+{
+    const double squared = 0.25 * dot(angle, angle);
+    if (squared > 1e-4) return rotation_by(angle);
+    // tan x / x by its series, to the last digit up to there
+    const double ratio =
+        1.0 + squared * (1.0 / 3.0 + squared * (2.0 / 15.0 + squared * (17.0 / 315.0)));
+    return { 1.0, (0.5 * ratio) * angle };
+}
+
 /// The same rotation with a length of 1.
 inline Quaternion normalized(const Quaternion& q)
 {

@@ -4,6 +4,7 @@
 #include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/space/solid.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 
 #include <algorithm>
 #include <string>
@@ -26,6 +27,7 @@ Vector way_of(const SolidState& s, int triangle)
 /// Make room for pressures, of which there was none.
 void begin_pressures(SolidState& s)
 {
+    show_nodes(s);
     SurfaceTriangles& surface = s.surface;
     surface.pressure.assign(surface.side.size(), 0.0);
     surface.push.assign(3 * surface.side.size(), 0.0);

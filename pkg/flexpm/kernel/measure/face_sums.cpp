@@ -15,7 +15,7 @@ FLEXPM_INLINE void add_stored(const FaceLanes& b, const double* states, LaneSum&
 {
     LaneSum sum = energy;  // a local, which no row aliases
     FaceMotion m;
-    move_corners<Wide>(b, m);
+    find_motion(b, m, std::bool_constant<Wide>());
     alignas(64) double jump[vector_rows], places[vector_rows];
     IntactRows at;
     states ? find_frames(b, m) : find_normals(b, m);
@@ -64,7 +64,7 @@ FLEXPM_INLINE void sum_forces(const FaceLanes& b, const double* states, double* 
     alignas(64) double sum[vector_rows] = {};
     alignas(64) double jump[vector_rows], places[vector_rows], traction[vector_rows];
     FaceMotion m;
-    move_corners<Wide>(b, m);
+    find_motion(b, m, std::bool_constant<Wide>());
     IntactRows at;
     states ? find_frames(b, m) : find_normals(b, m);
     for (int p = 0; p < b.group.points; ++p) {

@@ -8,6 +8,7 @@
 #include <flexpm/kernel/core/rows_of_four.hpp>
 
 #include <cmath>
+#include <type_traits>
 
 namespace flexpm {
 
@@ -45,8 +46,12 @@ struct FaceLaws {
     }
 };
 
+struct FaceMotion;
+
 /// What is read of one block of contacts.
 struct FaceLanes {
+    using Motion = FaceMotion;
+
     FaceGroup group;
     const double* displacement;  ///< of nodes
     const int* nodes;
@@ -70,23 +75,26 @@ inline FaceLanes face_lanes(const SolidState& s, int block, const FaceLaws& laws
 
 /// Where the forces of a block go.
 struct FaceForces {
-    double* force;    ///< of nodes
+    double* force;    ///< of nodes, or wrenches of rigid grains
     double* parcels;  ///< of the block, where they wait; null: added to `force` at once
 };
 
-/// What a block works out on the way.
-struct FaceMotion {
-    alignas(64) double middle[most_corners * vector_rows];  ///< corners of the middle faces
-    alignas(64) double apart[most_corners * vector_rows];   ///< ways from side a to side b
-    alignas(64) double on_a[most_corners * vector_rows];    ///< forces of the points on side a
-    // FaceFrame
+/// Frames of the middle faces of a block: rows of FaceFrame.
+struct FrameRows {
     alignas(64) double normal[vector_rows];
     alignas(64) double first[vector_rows];
     alignas(64) double second[vector_rows];
     alignas(64) double area[lanes];
     alignas(64) double span[lanes];
     alignas(64) double lean[lanes];
-    alignas(64) double couple[vector_rows];  ///< sum of f x jump over the points
+};
+
+/// What a block works out on the way.
+struct FaceMotion : FrameRows {
+    alignas(64) double middle[most_corners * vector_rows];  ///< corners of the middle faces
+    alignas(64) double apart[most_corners * vector_rows];   ///< ways from side a to side b
+    alignas(64) double on_a[most_corners * vector_rows];    ///< forces of the points on side a
+    alignas(64) double couple[vector_rows];                 ///< sum of f x jump over the points
 };
 
 /// Ways of one corner on a side.
@@ -97,7 +105,8 @@ FLEXPM_INLINE void gather_ways(const FaceLanes& b, const int* nodes, double* to)
         [&](int l, Four& row) FLEXPM_INLINED { row = row_of_four(b.displacement + nodes[l]); }, to);
 }
 
-template <bool Wide> FLEXPM_INLINE void move_corners(const FaceLanes& b, FaceMotion& m)
+template <bool Wide>
+FLEXPM_INLINE void find_motion(const FaceLanes& b, FaceMotion& m, std::bool_constant<Wide>)
 {
     alignas(64) double of_a[vector_rows], of_b[vector_rows];
     for (int k = 0; k < b.group.corners; ++k) {
@@ -131,50 +140,63 @@ FLEXPM_INLINE void add_area_vectors(const FaceLanes& b, const FaceMotion& m, dou
     }
 }
 
-/// Areas and normals of the middle faces, of their frames what intact points need.
-FLEXPM_INLINE void find_normals(const FaceLanes& b, FaceMotion& m)
+/// Areas and normals of faces from twice their area vectors: of their frames what intact points need.
+FLEXPM_INLINE void find_normals(const double* twice, FrameRows& to)
 {
-    alignas(64) double twice[vector_rows];
-    add_area_vectors(b, m, twice);
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const Vector area = load_vector(twice, l);
         const double size = 0.5 * norm(area);
-        store_vector((0.5 / size) * area, m.normal, l);
-        m.area[l] = size;
+        store_vector((0.5 / size) * area, to.normal, l);
+        to.area[l] = size;
     }
+}
+
+/// Tangents of faces, the first of which follows a line from corner 0.
+FLEXPM_INLINE void find_tangents(const double* line, FrameRows& to)
+{
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        const Vector normal = load_vector(to.normal, l), along = load_vector(line, l);
+        const double lean = dot(along, normal);
+        const Vector flat = along - lean * normal;
+        const double span = norm(flat);
+        const Vector first = (1.0 / span) * flat;
+        store_vector(first, to.first, l);
+        store_vector(cross(normal, first), to.second, l);
+        to.span[l] = span;
+        to.lean[l] = lean;
+    }
+}
+
+/// Areas and normals of the middle faces.
+FLEXPM_INLINE void find_normals(const FaceLanes& b, FaceMotion& m)
+{
+    alignas(64) double twice[vector_rows];
+    add_area_vectors(b, m, twice);
+    find_normals(twice, m);
 }
 
 /// Frames of the middle faces.
 FLEXPM_INLINE void find_frames(const FaceLanes& b, FaceMotion& m)
 {
     find_normals(b, m);
-    alignas(64) double end[vector_rows];
+    alignas(64) double line[vector_rows];
     for (int i = 0; i < vector_rows; ++i)
-        end[i] = m.middle[i];
+        line[i] = m.middle[i];
     for (int k = 1; k < b.group.corners; ++k) {
         const double* corner = m.middle + k * vector_rows;
         FLEXPM_INDEPENDENT
         for (int l = 0; l < lanes; ++l)
-            store_vector(b.line[l] == k ? load_vector(corner, l) : load_vector(end, l), end, l);
+            store_vector(b.line[l] == k ? load_vector(corner, l) : load_vector(line, l), line, l);
     }
-    FLEXPM_INDEPENDENT
-    for (int l = 0; l < lanes; ++l) {
-        const Vector normal = load_vector(m.normal, l);
-        const Vector along = load_vector(end, l) - load_vector(m.middle, l);
-        const double lean = dot(along, normal);
-        const Vector flat = along - lean * normal;
-        const double span = norm(flat);
-        const Vector first = (1.0 / span) * flat;
-        store_vector(first, m.first, l);
-        store_vector(cross(normal, first), m.second, l);
-        m.span[l] = span;
-        m.lean[l] = lean;
-    }
+    for (int i = 0; i < vector_rows; ++i)
+        line[i] -= m.middle[i];
+    find_tangents(line, m);
 }
 
 /// Lanes whose face has no area or no longest line.
-FLEXPM_INLINE int count_turned(const FaceMotion& m)
+FLEXPM_INLINE int count_turned(const FrameRows& m)
 {
     int turned = 0;
     for (int l = 0; l < lanes; ++l)
@@ -205,7 +227,7 @@ FLEXPM_INLINE void find_jump(const FaceLanes& b, const FaceMotion& m, int p, dou
 }
 
 /// Opening and slip of a point, three rows, from its way between the sides.
-FLEXPM_INLINE void find_places(const FaceMotion& m, const double* jump, double* places)
+FLEXPM_INLINE void find_places(const FrameRows& m, const double* jump, double* places)
 {
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
@@ -218,7 +240,7 @@ FLEXPM_INLINE void find_places(const FaceMotion& m, const double* jump, double* 
 
 /// Forces of a point of each contact, for tractions along normal and tangents.
 FLEXPM_INLINE void find_force(
-    const FaceMotion& m, const double* area, const double* traction, double* force)
+    const FrameRows& m, const double* area, const double* traction, double* force)
 {
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
@@ -239,8 +261,9 @@ struct IntactRows {
 
 /// Point `p` of each contact while it is intact. Its tractions need no tangents: they are k_s times
 /// its way between the sides, and (k_n - k_s) times the opening along the normal.
+template <class Lanes>
 FLEXPM_INLINE void find_intact(
-    const FaceLanes& b, const FaceMotion& m, int p, const double* jump, IntactRows& to)
+    const Lanes& b, const FrameRows& m, int p, const double* jump, IntactRows& to)
 {
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
@@ -256,9 +279,16 @@ FLEXPM_INLINE void find_intact(
     }
 }
 
-/// Add the forces of point `p` to those on the corners of side a.
-FLEXPM_INLINE void spread_point(const FaceLanes& b, int p, const double* force, FaceMotion& m)
+/// Add the forces of point `p`, whose places on both sides are `jump` apart, to those on the corners
+/// of side a, and their couples.
+FLEXPM_INLINE void add_force(
+    const FaceLanes& b, int p, const double* force, const double* jump, FaceMotion& m)
 {
+    FLEXPM_INDEPENDENT
+    for (int l = 0; l < lanes; ++l) {
+        store_vector(load_vector(m.couple, l) + cross(load_vector(force, l), load_vector(jump, l)),
+            m.couple, l);
+    }
     if (p < b.group.at_corners) {
         for (int i = 0; i < vector_rows; ++i)
             m.on_a[p * vector_rows + i] += force[i];
@@ -281,7 +311,8 @@ FLEXPM_INLINE void spread_point(const FaceLanes& b, int p, const double* force, 
 ///
 /// @tparam Intact  true: the couples have no part along the normals
 template <bool Intact>
-FLEXPM_INLINE void write_forces(const FaceLanes& b, const FaceMotion& m, const FaceForces& to)
+FLEXPM_INLINE void write_forces(
+    const FaceLanes& b, const FaceMotion& m, const FaceForces& to, std::bool_constant<Intact>)
 {
     alignas(64) double tilting[vector_rows], about[vector_rows], of_a[vector_rows],
         of_b[vector_rows];

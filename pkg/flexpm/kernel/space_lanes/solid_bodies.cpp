@@ -3,12 +3,15 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/core/instruction_set.hpp>
+#include <flexpm/kernel/core/prefetch_rows.hpp>
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/core/rows_of_four.hpp>
+#include <flexpm/kernel/space_lanes/face_forces.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 namespace flexpm {
 
@@ -142,15 +145,44 @@ Vector axis_vector(int axis)
     return { axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0 };
 }
 
-/// Force and moment on a rigid grain, whose centre gets the force; it has the weight before.
-FLEXPM_INLINE Resultant forces_on_body(SolidState& s, int grain, int centre)
+Vector vector_of(const double* row) { return { row[0], row[1], row[2] }; }
+
+void set_row(double* row, Vector v)
+{
+    row[0] = v.x;
+    row[1] = v.y;
+    row[2] = v.z;
+}
+
+/// Force and moment on a rigid grain: those of its contacts, what acts on its nodes, and its weight,
+/// which its centre has. The centre gets the force.
+Resultant forces_on_body(SolidState& s, int block)
 {
     Grains& grains = s.grains;
-    Resultant on;
-    variant_of<sum_forces>()(body_nodes(s, grain), on);
+    const auto [grain, centre] = s.plan.body_places[block];
+    const double* wrench = s.plan.wrenches.data() + block * WrenchRow::count;
+    Resultant on { vector_of(wrench + WrenchRow::force), vector_of(wrench + WrenchRow::moment) };
+    if (s.plan.node_loads[block] != 0) {
+        Resultant more;
+        variant_of<sum_forces>()(body_nodes(s, grain), more);
+        on = { on.force + more.force, on.moment + more.moment };
+    }
     if (s.has_gravity()) on.force = on.force + space_vector(grains.force, centre);
     set_space_vector(grains.force, centre, on.force);
     return on;
+}
+
+/// The motion of a rigid grain since the reference.
+BodyMotion motion_of(const SolidState& s, int grain)
+{
+    return { space_vector(s.grains.displacement, s.grains.centre(grain)), s.bodies[grain].turn };
+}
+
+/// Leave no force on the nodes of a block.
+void clear_nodes(Grains& grains, int block)
+{
+    double* force = grains.force.data() + grains.block_nodes[block];
+    std::fill_n(force, grains.group(block).nodes * grains.layout.node_stride, 0.0);
 }
 
 }  // namespace
@@ -158,37 +190,108 @@ FLEXPM_INLINE Resultant forces_on_body(SolidState& s, int grain, int centre)
 void move_body(SolidState& s, int block, double dt)
 {
     Grains& grains = s.grains;
-    const int grain = grains.in_slot[block * lanes], centre = grains.centre(grain);
+    const auto [grain, centre] = s.plan.body_places[block];
     RigidBody& body = s.bodies[grain];
     const Vector way =
         space_vector(grains.displacement, centre) + dt * space_vector(grains.velocity, centre);
-    body.turn = normalized(rotation_by(dt * body.spin) * body.turn);
-    place_body(s, grain, way);
+    body.turn = normalized(scaled_rotation_by(dt * body.spin) * body.turn);
+    set_space_vector(grains.displacement, centre, way);
+    write_motion({ way, body.turn }, s.plan.motions.data() + block * RigidMotionRow::count);
+    if (s.plan.node_loads[block] != 0) place_body(s, grain, way);
 }
 
-void sum_body_forces(SolidState& s, int block)
+void prefetch_body(const SolidState& s, int block)
 {
-    const int grain = s.grains.in_slot[block * lanes];
-    forces_on_body(s, grain, s.grains.centre(grain));
+    const Grains& grains = s.grains;
+    const auto [grain, centre] = s.plan.body_places[block];
+    for (const auto* values : { &grains.displacement, &grains.velocity, &grains.force })
+        __builtin_prefetch(values->data() + centre);
+    __builtin_prefetch(s.undamped().velocity.data() + centre);
+    __builtin_prefetch(s.undamped().spin.data() + 3 * grain);
+    __builtin_prefetch(grains.inverse_mass.data() + grains.scalar_index(centre));
+    __builtin_prefetch(grains.prescribed.data() + centre);
+    prefetch_rows(reinterpret_cast<const double*>(&s.bodies[grain]), 3);
+    prefetch_rows(s.plan.motions.data() + block * RigidMotionRow::count, 2);
 }
+
+void read_motions(SolidState& s)
+{
+    for (int block = 0; block < s.grains.blocks(); ++block) {
+        write_motion(motion_of(s, s.plan.body_places[block].grain),
+            s.plan.motions.data() + block * RigidMotionRow::count);
+    }
+}
+
+void clear_wrenches(SolidState& s, int first, int end)
+{
+    std::fill(s.plan.wrenches.begin() + first * WrenchRow::count,
+        s.plan.wrenches.begin() + end * WrenchRow::count, 0.0);
+    for (int block = first; block < end; ++block) {
+        if (s.plan.node_loads[block] != 0) {
+            clear_nodes(s.grains, block);
+        } else {
+            set_space_vector(s.grains.force, s.plan.body_places[block].centre, {});
+        }
+    }
+}
+
+void sum_body_forces(SolidState& s, int block) { forces_on_body(s, block); }
 
 void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums)
 {
     Grains& grains = s.grains;
-    const int grain = grains.in_slot[block * lanes], centre = grains.centre(grain);
-    const Vector moment = forces_on_body(s, grain, centre).moment;
+    const auto [grain, centre] = s.plan.body_places[block];
+    const Vector moment = forces_on_body(s, block).moment;
     const double inverse_mass = grains.inverse_mass[grains.scalar_index(centre)];
     const Array<double>& undamped = s.undamped().velocity;
-    for (int axis = 0; axis < grains.layout.dimension; ++axis) {
-        const int i = grains.component(centre, axis);
-        integrate_one<true>({ grains.force[i], inverse_mass,
-                                static_cast<double>(grains.prescribed[i]), undamped[i] },
-            o.dt, o.damping, grains.velocity[i], sums, axis);
+    const auto integrate = [&](auto measure) FLEXPM_INLINED {
+        for (int axis = 0; axis < 3; ++axis) {
+            const int i = centre + axis;
+            integrate_one<measure>({ grains.force[i], inverse_mass,
+                                       static_cast<double>(grains.prescribed[i]), undamped[i] },
+                o.dt, o.damping, grains.velocity[i], sums, axis);
+        }
+    };
+    if (o.measure) {
+        integrate(std::true_type());
+    } else {
+        integrate(std::false_type());
     }
     RigidBody& body = s.bodies[grain];
-    if (!body.spin_held)
+    if (o.measure && !body.spin_held)
         sums.largest[0] = std::max(sums.largest[0], norm(moment) / grains.radius[grain]);
     integrate_turn(body, moment, spin_in(s.undamped(), grain), o, sums);
+}
+
+void show_nodes(SolidState& s)
+{
+    if (!s.plan.nodes_behind) return;
+    s.plan.nodes_behind = false;
+    Grains& grains = s.grains;
+    for (int grain = 0; grain < grains.count; ++grain) {
+        const int block = grains.block_of(grain), centre = grains.centre(grain);
+        if (s.plan.node_loads[block] != 0) continue;
+        place_body(s, grain, space_vector(grains.displacement, centre));
+        const Vector force = space_vector(grains.force, centre);
+        clear_nodes(grains, block);
+        set_space_vector(grains.force, centre, force);
+    }
+    add_node_forces(s);
+}
+
+void write_motion(const BodyMotion& motion, double* to)
+{
+    set_row(to + RigidMotionRow::way, motion.way);
+    set_row(to + RigidMotionRow::of_x, turned_by(motion.turn, { 1.0, 0.0, 0.0 }));
+    set_row(to + RigidMotionRow::of_y, turned_by(motion.turn, { 0.0, 1.0, 0.0 }));
+    set_row(to + RigidMotionRow::of_z, turned_by(motion.turn, { 0.0, 0.0, 1.0 }));
+}
+
+BodyMotion motion_before(const SolidState& s, int grain, double dt)
+{
+    const BodyMotion now = motion_of(s, grain);
+    return { now.way - dt * space_vector(s.grains.velocity, s.grains.centre(grain)),
+        inverse(rotation_by(dt * s.bodies[grain].spin)) * now.turn };
 }
 
 void place_body(SolidState& s, int grain, Vector way)
@@ -203,16 +306,13 @@ void place_body(SolidState& s, int grain, Vector way)
 Vector displacement_before(const SolidState& s, int grain, int node, double dt)
 {
     const Grains& grains = s.grains;
-    const auto moved_back = [&](int n) {
-        return space_vector(grains.displacement, n) - dt * space_vector(grains.velocity, n);
-    };
-    if (!grains.is_rigid(grain)) return moved_back(node);
-    const int centre = grains.centre(grain);
-    const RigidBody& body = s.bodies[grain];
-    const Quaternion turn = inverse(rotation_by(dt * body.spin)) * body.turn;
+    if (!grains.is_rigid(grain)) {
+        return space_vector(grains.displacement, node) - dt * space_vector(grains.velocity, node);
+    }
+    const BodyMotion before = motion_before(s, grain, dt);
     const Vector arm =
-        space_vector(grains.reference, node) - space_vector(grains.reference, centre);
-    return moved_back(centre) + turned_by(turn, arm);
+        space_vector(grains.reference, node) - space_vector(grains.reference, grains.centre(grain));
+    return before.way + turned_by(before.turn, arm);
 }
 
 void set_spin(SolidState& s, int grain, Vector spin, bool held)

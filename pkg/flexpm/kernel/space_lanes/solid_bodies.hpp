@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Motion of rigid polyhedral grains, whose turn is a quaternion. Their nodes follow the
-/// centre and the turn; nodes and contacts are those of deformable grains.
+/// @file  Motion of rigid polyhedral grains, whose turn is a quaternion. Contacts read their motions
+/// and add to their wrenches, see rigid_faces.hpp. Their nodes follow the centre and the turn when
+/// somebody looks at them, or plates or pressures act on them.
 #pragma once
 
 #include <flexpm/kernel/assembly/solid_state.hpp>
@@ -9,17 +10,42 @@
 
 namespace flexpm {
 
-/// Move a rigid grain to the end of a step, by its block.
+/// Move a rigid grain to the end of a step, by its block, and write its motion to the plan.
 void move_body(SolidState& s, int block, double dt);
 
-/// Give the centre of a rigid grain, which has its weight, the sum of that and the forces on all
-/// other nodes, by its block.
+/// Ask for what a step reads of a rigid grain, some time before it does, by its block.
+void prefetch_body(const SolidState& s, int block);
+
+/// Write the motions of all rigid grains to the plan.
+void read_motions(SolidState& s);
+
+/// Leave no wrench on blocks of rigid grains, no weight on their centres, and no force on nodes on
+/// which plates or pressures act.
+void clear_wrenches(SolidState& s, int first, int end);
+
+/// Give the centre of a rigid grain, which has its weight, the sum of that, the wrench of its
+/// contacts and the forces on its nodes, by its block.
 void sum_body_forces(SolidState& s, int block);
 
-/// Sum force and moment on a rigid grain from those on its nodes, and integrate its velocity and
-/// its angular momentum. The spin half a step later is that whose turn in the middle of the step
-/// has the momentum.
+/// Sum force and moment on a rigid grain, and integrate its velocity and its angular momentum. The
+/// spin half a step later is that whose turn in the middle of the step has the momentum.
 void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums);
+
+/// Put the nodes of rigid grains where these are, and the forces on their nodes there, if a step has
+/// left them behind.
+void show_nodes(SolidState& s);
+
+/// Motion of a rigid grain since the reference.
+struct BodyMotion {
+    Vector way;  ///< of its centre [m]
+    Quaternion turn;
+};
+
+/// Write a motion as contacts read it: RigidMotionRow.
+void write_motion(const BodyMotion& motion, double* to);
+
+/// The motion of a rigid grain before its last move by `dt` with the present velocities.
+BodyMotion motion_before(const SolidState& s, int grain, double dt);
 
 /// Put a rigid grain where centre and turn are, by its number.
 /// @param way  of its centre since the reference [m]

@@ -11,6 +11,7 @@
 #include <flexpm/kernel/parts/soft_plate.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
 #include <flexpm/kernel/space_lanes/face_forces.hpp>
+#include <flexpm/kernel/space_lanes/rigid_faces.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/space_lanes/solid_motion.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
@@ -65,17 +66,26 @@ void move_shared_grains(SolidState& s, TileRange own, double dt)
 void move_grains_of(SolidState& s, int tile, TileRange own, double dt)
 {
     const SolidPlan& plan = s.plan;
-    for (int i = plan.tile_moves[tile]; i < plan.tile_moves[tile + 1]; ++i)
+    const int end = plan.tile_moves[tile + 1];
+    constexpr int ahead = 4;
+    for (int i = plan.tile_moves[tile]; i < end; ++i) {
+        if (s.is_rigid() && i + ahead < end) prefetch_body(s, plan.moves[i + ahead]);
         if (plan.moves[i] < own.end * tile_grains) move_block(s, plan.moves[i], dt);
+    }
 }
 
 /// Contacts of a tile, with the forces that are added at once. Returns the number of contacts
 /// without a middle face.
 int update_contacts_of(SolidState& s, int tile, double dt)
 {
-    const int first = tile * tile_grains;
-    clear_forces(s, first, std::min(first + tile_grains, s.grains.blocks()));
-    return update_face_blocks(s, s.plan.tile_contacts[tile], s.plan.tile_contacts[tile + 1], dt);
+    const int first = tile * tile_grains, end = std::min(first + tile_grains, s.grains.blocks());
+    const int contacts = s.plan.tile_contacts[tile], past = s.plan.tile_contacts[tile + 1];
+    if (s.is_rigid()) {
+        clear_wrenches(s, first, end);
+        return update_rigid_blocks(s, contacts, past, dt);
+    }
+    clear_forces(s, first, end);
+    return update_face_blocks(s, contacts, past, dt);
 }
 
 /// Add parcels to the nodes of a block, in their order.
@@ -86,14 +96,25 @@ FLEXPM_INLINE void add_parcels(
         row_of_four(force + p->node) += row_of_four(parcels + p->place);
 }
 
+FLEXPM_INLINE void add_wrenches(
+    const Parcel* first, const Parcel* end, const double* parcels, double* wrench)
+{
+    for (const Parcel* p = first; p != end; ++p)
+        for (int row = 0; row < WrenchRow::count; row += 4)
+            row_of_four(wrench + row) += row_of_four(parcels + p->place + row);
+}
+
 /// Complete the forces of contacts, plates, pressures and gravity on a block of grains.
 void sum_outer_forces(SolidState& s, int block)
 {
-    const SolidPlan& plan = s.plan;
+    SolidPlan& plan = s.plan;
     const int first = plan.block_sums[block], end = plan.block_sums[block + 1];
     if (first < end) {
-        variant_of<add_parcels>()(plan.sums.data() + first, plan.sums.data() + end,
-            plan.parcels.data(), s.grains.force.data() + s.grains.block_nodes[block]);
+        const bool rigid = s.is_rigid();
+        const auto add = rigid ? variant_of<add_wrenches>() : variant_of<add_parcels>();
+        add(plan.sums.data() + first, plan.sums.data() + end, plan.parcels.data(),
+            rigid ? plan.wrenches.data() + block * WrenchRow::count
+                  : s.grains.force.data() + s.grains.block_nodes[block]);
     }
     if (!plan.first_press.empty()) add_plate_forces(s, block);
     if (!plan.first_pressed.empty()) add_pressure_forces(s, block);
@@ -150,6 +171,7 @@ void check(const StepOptions& o)
 
 void find_forces(SolidState& s)
 {
+    if (s.is_rigid()) read_motions(s);
     int turned = 0;
     for (int tile = 0; tile < s.plan.tiles(); ++tile)
         turned += update_contacts_of(s, tile, 0.0);
@@ -165,6 +187,8 @@ void find_forces(SolidState& s)
             add_tetrahedron_forces(s, block);
     }
     sum_plates(s, 0.0, 0.0);
+    s.plan.nodes_behind = s.is_rigid();
+    show_nodes(s);
 }
 
 void step(SolidState& s, const StepOptions& options)
@@ -187,6 +211,8 @@ void step(SolidState& s, const StepOptions& options)
         update_shared_grains(s, own, options);
     };
     team.run(share);
+    s.plan.nodes_behind = s.is_rigid();
+    if (!options.leave_nodes) show_nodes(s);
     hold_faces(s);
     sum_plates(s, options.dt, options.damping);
     sum_pressure_work(s);

@@ -14,7 +14,7 @@ ConfinementController::~ConfinementController() = default;
 void ConfinementController::press(GrainSolver& solver, Real now) const
 {
 	for (int side : sides)
-		solver.onState([&](auto& state) { flexpm::set_pressure(state, side, now); });
+		solver.betweenSteps([&](auto& state) { flexpm::set_pressure(state, side, now); });
 	PressureController::press(solver, now);
 }
 

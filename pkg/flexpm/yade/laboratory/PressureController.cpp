@@ -23,7 +23,7 @@ void PressureController::action()
 void PressureController::press(GrainSolver& solver, Real now) const
 {
 	for (int plate : plates)
-		solver.onState([&](auto& state) { flexpm::press(state, plate, now); });
+		solver.betweenSteps([&](auto& state) { flexpm::press(state, plate, now); });
 }
 
 } // namespace yade

@@ -34,10 +34,10 @@ flexpm::SolidField SolidLoadingController::fieldOf(const flexpm::SolidState& sta
 void SolidLoadingController::action()
 {
 	const auto solver = GrainSolver::ofScene(*scene);
-	auto&      state  = stateOf(*solver);
 	const Real before = drivenAt;
 	follow(velocity, seenVelocity, drivenAt);
 	if (preloaded || (gripped && drivenAt == before)) return;
+	auto&      state = stateOf(*solver);
 	const auto drive = driveOf(state);
 	if (gripped) return flexpm::go_on(state, drive, drivenAt, scene->dt);
 	if (!solver->scaled) {

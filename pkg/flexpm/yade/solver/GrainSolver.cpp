@@ -6,6 +6,7 @@
 #include <flexpm/kernel/assembly/state_check.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/step/solid_step.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 #include <flexpm/kernel/topology/loose_grains.hpp>
@@ -35,7 +36,16 @@ void GrainSolver::postLoad(GrainSolver&)
 	if (hasGrains()) onState([](auto& state) { flexpm::prepare_step(state); });
 }
 
-void GrainSolver::preSave(GrainSolver&) { current(); }
+void GrainSolver::preSave(GrainSolver&)
+{
+	current();
+	showNodes();
+}
+
+void GrainSolver::showNodes() const
+{
+	if (isSolid()) flexpm::show_nodes(const_cast<GrainSolver*>(this)->space);
+}
 
 void GrainSolver::takeStep()
 {
@@ -53,7 +63,9 @@ void GrainSolver::takeSolidStep()
 			flexpm::find_loose(space);
 			flexpm::require_joined(space);
 		}
-		flexpm::step(space, stepOptions());
+		auto options        = stepOptions();
+		options.leave_nodes = true;
+		flexpm::step(space, options);
 	} catch (const std::runtime_error& error) { // of faces that have turned over or loose grains: the record up to here is good
 		diverge(error.what());
 		throw;
@@ -75,14 +87,14 @@ void GrainSolver::action()
 	requireReady();
 	const auto due = [this](int period) { return stepsDone() % period == 0; };
 	if (due(checkPeriod)) requireOwnScene();
-	if (solid()) {
+	if (isSolid()) {
 		if (due(checkPeriod) || destroyedContacts() != seenDestroyed) removeErased();
 		takeSolidStep();
 	} else {
 		takeStep();
 	}
 	if (due(mirrorPeriod)) mirrorStates();
-	if (!solid()) {
+	if (!isSolid()) {
 		if (due(touchPeriod)) changeContacts();
 		if (due(checkPeriod)) flexpm::find_loose(assembly);
 	}
@@ -125,7 +137,7 @@ void GrainSolver::check()
 	removeErased(); // a script that keeps a handle delays its destruction
 	findStates();   // a script may have replaced one
 	// the collider watches centres only, when NewtonIntegrator runs, which grains do not need
-	for (int grain = 0; grain < grains().count; ++grain) {
+	for (int grain = 0; grain < grainCount(); ++grain) {
 		const Body* b = bodyOf(*scene, grain);
 		if (b && b->bound && nearBound(grains(), grain, *b->bound)) scene->doSort = true;
 	}

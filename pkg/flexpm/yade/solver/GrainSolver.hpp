@@ -25,6 +25,7 @@ template <class C, class R, class... A, void (C::*require)() const, R (C::*metho
 	static R call(C& self, A... a)
 	{
 		(self.*require)();
+		self.showNodes();
 		return (self.*method)(a...);
 	}
 };
@@ -32,6 +33,7 @@ template <class C, class R, class... A, void (C::*require)() const, R (C::*metho
 	static R call(const C& self, A... a)
 	{
 		(self.*require)();
+		self.showNodes();
 		return (self.*method)(a...);
 	}
 };
@@ -46,15 +48,23 @@ public:
 	void preSave(GrainSolver&);
 
 	flexpm::Assembly*   assembled() override { return assembly.grains.count > 0 ? &assembly : nullptr; }
-	flexpm::SolidState* solid() override { return space.grains.count > 0 ? &space : nullptr; }
-	bool                holds(int place) const override;
+	flexpm::SolidState* solid() override
+	{
+		showNodes();
+		return isSolid() ? &space : nullptr;
+	}
+	bool isSolid() const { return space.grains.count > 0; }
+	/// Steps leave the nodes of rigid polyhedra behind; all that looks at the state from outside comes by here first.
+	void showNodes() const;
+	bool holds(int place) const override;
 	/// Components of a vector of the grains; 0 without grains.
-	int  dimension() const { return hasGrains() ? grains().layout.dimension : 0; }
-	bool hasGrains() const { return grains().count > 0; }
+	int  dimension() const { return isSolid() ? 3 : assembly.grains.count > 0 ? 2 : 0; }
+	bool hasGrains() const { return grainCount() > 0; }
+	int  grainCount() const { return isSolid() ? space.grains.count : assembly.grains.count; }
 	/// The part of the state that both dimensions have.
 	flexpm::BondedState&       state() { return solid() ? static_cast<flexpm::BondedState&>(space) : assembly; }
 	const flexpm::BondedState& state() const { return const_cast<GrainSolver*>(this)->state(); }
-	long                       stepsDone() const { return state().step; }
+	long                       stepsDone() const { return isSolid() ? space.step : assembly.step; }
 	/// @throws std::runtime_error  unless there are grains of 2D, of 3D, or any; all that Python calls goes through one of them
 	void requirePlane() const;
 	void requireSolid() const;
@@ -63,6 +73,12 @@ public:
 	template <class Call> auto onState(Call call)
 	{
 		if (flexpm::SolidState* state = solid()) return call(*state);
+		return call(assembly);
+	}
+	/// The same for who comes at each step and reads no nodes.
+	template <class Call> auto betweenSteps(Call call)
+	{
+		if (isSolid()) return call(space);
 		return call(assembly);
 	}
 	flexpm::Grains&       grains() { return state().grains; }

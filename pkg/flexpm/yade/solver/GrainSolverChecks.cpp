@@ -83,10 +83,10 @@ void GrainSolver::requireOwnValues() const
 
 void GrainSolver::requireInScene() const
 {
-	if (bodyIds.size() == std::size_t(grains().count)) return;
+	if (bodyIds.size() == std::size_t(grainCount())) return;
 	fail("GrainSolver.bodyIds",
 	     std::to_string(bodyIds.size()) + " bodies",
-	     "must be one for each of " + std::to_string(grains().count) + " grains; call addToScene() once, or flexpm.build");
+	     "must be one for each of " + std::to_string(grainCount()) + " grains; call addToScene() once, or flexpm.build");
 }
 
 void GrainSolver::requireMasses() const
@@ -129,11 +129,11 @@ void GrainSolver::requireOwnScene() const
 {
 	if (ofScene(*scene).get() != this) fail("GrainSolver: O.engines", "two with grains", "must hold one" + buildAgain);
 	bool any = false;
-	for (int grain = 0; grain < grains().count; ++grain) {
+	for (int grain = 0; grain < grainCount(); ++grain) {
 		const Body* body = bodyOf(*scene, grain);
 		if (!body) continue;
 		any = true;
-		if (body->material == materials[grains().material[grain]]) continue;
+		if (body->material == materials[(isSolid() ? space.grains : assembly.grains).material[grain]]) continue;
 		fail("O.bodies[" + std::to_string(bodyIds[grain]) + "].material", "another one", "must stay that of the build" + buildAgain);
 	}
 	if (!any) fail("GrainSolver: grains in O.bodies", "0", "must be at least 1" + buildAgain);

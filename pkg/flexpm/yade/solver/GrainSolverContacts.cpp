@@ -14,7 +14,7 @@ namespace yade {
 
 bool GrainSolver::isInScene() const
 {
-	const bool inserted = int(bodyIds.size()) == grains().count;
+	const bool inserted = int(bodyIds.size()) == grainCount();
 	return inserted && findAssembly(*Omega::instance().getScene()).engine.get() == this;
 }
 
@@ -72,7 +72,7 @@ flexpm::Erasure GrainSolver::findErased() const
 void GrainSolver::removeErased()
 {
 	seenDestroyed = destroyedContacts();
-	if (solid()) return refuseErased();
+	if (isSolid()) return refuseErased();
 	listed          = false;
 	const auto what = findErased();
 	if (what.empty()) return;

@@ -49,7 +49,7 @@ namespace {
 void GrainSolver::mirrorStates()
 {
 	requireInScene();
-	if (solid())
+	if (isSolid())
 		mirrorSolid();
 	else
 		mirrorPlane();
@@ -148,7 +148,7 @@ void GrainSolver::mirrorForces(Scene& world)
 	};
 	vector<Change> changes;
 	world.forces.sync();
-	for (int grain = 0; grain < grains().count; ++grain) {
+	for (int grain = 0; grain < grainCount(); ++grain) {
 		const Body* body = bodyOf(world, grain);
 		if (!body) continue;
 		const auto id  = body->getId();

@@ -55,7 +55,7 @@ void GrainSolver::keepMaterials(const vector<shared_ptr<Material>>& ofGrains)
 void GrainSolver::assemble(const flexpm_bindings::AssemblyInput& input, py::list minerals, py::list pairs, py::list joints)
 {
 	// views of the arrays live as long as the solver
-	if (hasGrains()) flexpm::refuse("GrainSolver: grains", grains().count, "", "are assembled already; make another GrainSolver");
+	if (hasGrains()) flexpm::refuse("GrainSolver: grains", grainCount(), "", "are assembled already; make another GrainSolver");
 	flexpm::AssemblyOptions o        = input.options;
 	const auto              ofGrains = materialsOf(minerals);
 	for (const auto& m : ofGrains)
@@ -104,13 +104,13 @@ void GrainSolver::insertBodies()
 {
 	const auto& world = Omega::instance().getScene();
 	// bodies and states each in a row: every step walks through them
-	vector<shared_ptr<Body>>  bodies(grains().count);
-	vector<shared_ptr<State>> ofBodies(grains().count);
+	vector<shared_ptr<Body>>  bodies(grainCount());
+	vector<shared_ptr<State>> ofBodies(grainCount());
 	for (auto& body : bodies)
 		body = boost::make_shared<Body>();
 	for (auto& state : ofBodies)
 		state = boost::make_shared<State>();
-	for (int grain = 0; grain < grains().count; ++grain) {
+	for (int grain = 0; grain < grainCount(); ++grain) {
 		const auto& body = bodies[grain];
 		body->state      = ofBodies[grain];
 		auto cell        = boost::make_shared<LaguerreCell>();
@@ -146,7 +146,7 @@ void GrainSolver::insertContacts()
 
 void GrainSolver::assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list minerals, py::list pairs, vector<int> kinds, bool rigid)
 {
-	if (hasGrains()) flexpm::refuse(getClassName() + ": grains", grains().count, "", "are assembled already; make another " + getClassName());
+	if (hasGrains()) flexpm::refuse(getClassName() + ": grains", grainCount(), "", "are assembled already; make another " + getClassName());
 	flexpm::SolidInput input;
 	const auto         ofGrains = materialsOf(minerals);
 	for (const auto& m : ofGrains)
