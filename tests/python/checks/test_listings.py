@@ -68,12 +68,13 @@ def test_commands_of_the_pages_run(command, tmp_path, monkeypatch):
 
 
 @pytest.mark.long
-def test_the_listing_of_the_readme(tmp_path, monkeypatch, capsys):
+def test_the_listing_of_the_first_tutorial(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    text = (ROOT / "README.md").read_text()
     scope = {}
-    exec(re.search(r"```python\n(.*?)```", text, re.DOTALL)[1], scope)
+    exec(code_after("doc/tutorials/first_test.rst", "is a quarter of the paper's::"), scope)
     said = capsys.readouterr().out
+    page = (DOC / "tutorials/first_test.rst").read_text()
+    assert textwrap.indent(said, "    ") in page
     solved, tested = map(float, re.findall(r"E = ([\d.]+) GPa", said))
     assert tested == pytest.approx(solved, rel=0.02)
     assert "status ok" in said
