@@ -84,12 +84,12 @@ def test_the_listing_of_the_first_tutorial(tmp_path, monkeypatch, capsys):
 
 def test_the_listings_of_the_page_on_specimens():
     scope = {}
-    exec(code_after("doc/specimens.rst", "out of a packed block (D31)::"), scope)
+    exec(code_after("doc/specimens.rst", "makes a notched beam::"), scope)
     assert len(scope["beam"].discs) > 20
-    exec(code_after("doc/specimens.rst", "a neighbour (D34)::"), scope)
+    exec(code_after("doc/specimens.rst", "makes a wall of three bricks::"), scope)
     assert len(scope["wall"].discs) == 3
     scope["specimen"] = flexpm.Specimen.rectangle(0.02, 0.04, 0.01)
-    exec(code_after("doc/specimens.rst", "does the same::"), scope)
+    exec(code_after("doc/joints.rst", ":doc:`materials`, \"Joints\"). In Python::"), scope)
     assert len(scope["cut"].discs) > len(scope["specimen"].discs)
     assert {0, 1} <= set(scope["cut"].edge_joints)
 
@@ -105,7 +105,7 @@ def test_the_listing_of_solids_in_the_scene(capsys):
 
 def test_the_listing_of_held_nodes():
     scope = {"flexpm": flexpm}
-    exec(code_after("doc/own_tests.rst", "turned until it breaks::"), scope)
+    exec(code_after("doc/rig_parts.rst", "rotated until it breaks::"), scope)
     load = scope["rig"].record["load"]
     assert load[-1] <= 0.5 * load.max()
 
