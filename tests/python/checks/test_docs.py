@@ -4,6 +4,7 @@
 import functools
 import html
 import inspect
+import json
 import re
 import shlex
 import shutil
@@ -117,7 +118,8 @@ def test_every_deviation_in_the_code_is_in_the_document():
 
 
 def test_arrays_and_columns_of_the_files_are_documented():
-    documented = literals((DOC / "files.rst").read_text())
+    pages = ("result_json", "csv_tables", "vtu_files")
+    documented = literals("".join((DOC / f"{page}.rst").read_text() for page in pages))
     arrays = {**point_arrays(wall()), **cell_arrays(wall())}
     assert set(arrays) - documented == set()
     assert set(COLUMNS) - documented == set()
@@ -127,8 +129,8 @@ def test_arrays_and_columns_of_the_files_are_documented():
 
 
 def test_documented_arrays_exist():
-    tables = (DOC / "files.rst").read_text().split("Arrays over points")[1]
-    tables = tables.split("\nFiles of 3D runs\n")[0]
+    tables = (DOC / "vtu_files.rst").read_text().split("Arrays over points")[1]
+    tables = tables.split("\nArrays in 3D\n")[0]
     named = set(re.findall(r"^   (``.*``) \|", tables, re.MULTILINE))
     documented = literals("\n".join(named))
     arrays = {**point_arrays(wall()), **cell_arrays(wall())}
@@ -148,6 +150,12 @@ def test_the_documentation_builds_without_warnings(tmp_path):
     assert (tmp_path / "theory.html").stat().st_size > 5000
     presets = (tmp_path / "materials.html").read_text()
     assert presets.count("normal_stiffness") >= len(preset_names())
+    words = json.loads((tmp_path / "searchindex.js").read_text()[len("Search.setIndex(") : -1])
+    found = {words["docnames"][number] for number in words["titleterms"]["3d"]}
+    assert {"solids", "availability"} <= found
+    gallery = (tmp_path / "gallery.html").read_text()
+    linked = set(re.findall(r'href="_downloads/\w+/(\w+)\.py"', gallery))
+    assert {"first_test", "first_core", "window", "solid_gallery"} <= linked
     reference = html.unescape((tmp_path / "reference" / "yade.html").read_text())
     described = re.findall(r"<dt class=.*?</dt>\s*<dd>(.*?)</dd>", reference, re.DOTALL)
     texts = [re.sub(r"<[^>]+>", "", text).strip() for text in described]
