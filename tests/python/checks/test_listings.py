@@ -115,7 +115,7 @@ def test_the_listing_of_the_page_on_comparisons(monkeypatch):
     scope = {"flexpm": flexpm, "specimen": flexpm.Specimen.rectangle(0.012, 0.024, 0.01)}
     compare = flexpm.compare
     monkeypatch.setattr(flexpm, "compare", lambda *given, **more: compare(*given, rate=6.0, **more))
-    exec(code_after("doc/compare.rst", "exit code 3::"), scope)
+    exec(code_after("doc/compare.rst", "In Python::"), scope)
     assert len(scope["found"].cases) == 6
     assert scope["found"].envelopes[0].mohr_coulomb.friction_angle > 0.0
 
