@@ -89,7 +89,7 @@ def test_the_listings_of_the_page_on_specimens():
     exec(code_after("doc/specimens.rst", "makes a wall of three bricks::"), scope)
     assert len(scope["wall"].discs) == 3
     scope["specimen"] = flexpm.Specimen.rectangle(0.02, 0.04, 0.01)
-    exec(code_after("doc/joints.rst", ":doc:`materials`, \"Joints\"). In Python::"), scope)
+    exec(code_after("doc/joints.rst", ':doc:`materials`, "Joints"). In Python::'), scope)
     assert len(scope["cut"].discs) > len(scope["specimen"].discs)
     assert {0, 1} <= set(scope["cut"].edge_joints)
 
