@@ -78,12 +78,13 @@ def write_table(rows: list[dict[str, str]], path: Path) -> None:
     rows = sorted(rows, key=lambda row: (row["dimension"], *_order(row)))
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, delimiter="|", lineterminator="\n")
-        table.writerow(("", "Test", "Model", "Grains", "Steps", "Processor time", "Memory"))
+        table.writerow(("", "Test", "Model", "Grains", "Steps", "Time", "Memory"))
         for row in rows:
             test, *options = [part for part in row["options"].split() if part != "--model"]
             shown = " ".join(part for part in options if part not in ("rigid", "flexible"))
             time = told(float(row["seconds"]))
-            cells = (f"``{test} {shown}``", row["model"], row["grains"], row["steps"], time)
+            counts = (f"{int(row[name]):,}".replace(",", " ") for name in ("grains", "steps"))
+            cells = (f"``{test} {shown}``", row["model"], *counts, time)
             table.writerow((row["dimension"], *cells, f"{row['peak_mb']} MB"))
 
 
