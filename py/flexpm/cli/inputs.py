@@ -249,6 +249,26 @@ def made(specimen: SpecimenSource, progress: terminal.Progress) -> AnySpecimen:
     return found
 
 
+def resumed(specimen: SpecimenSource, folder: Path, progress: terminal.Progress) -> AnySpecimen:
+    """The specimen of a run: the one that its folder has kept, if a checkpoint there names it.
+
+    Args:
+        specimen: Where it comes from otherwise.
+        folder: Folder of the run.
+        progress: Shows how far a packing is.
+    """
+    load_yade()
+    from ..runs.kept_packing import kept
+
+    if specimen.file is None:
+        found, why = kept(folder, specimen.spec)
+        if found is not None:
+            return found
+        if why:
+            terminal.say(why)
+    return made(specimen, progress)
+
+
 #: Options that name a file of lines.
 _FILES = ("joints_file", "network_file")
 

@@ -71,7 +71,7 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
         return
     options |= {"quiet": quiet, "discard_checkpoint": discard_checkpoint}
     folder = inputs.locked_folder(out, "run")
-    _simulate(spec, chosen, lambda shown: inputs.made(source, shown), folder, options)
+    _simulate(spec, chosen, lambda shown: inputs.resumed(source, folder, shown), folder, options)
 
 
 @click.command(short_help="A run again from its result.json.")
@@ -106,9 +106,13 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
 
     def specimen(shown: terminal.Progress) -> AnySpecimen:
         inputs.load_yade()
+        from ..runs.kept_packing import difference
         from ..specimens.files import given
 
-        return given.load(spec.specimen, file.parent, shown)
+        made = given.load(spec.specimen, file.parent, shown)
+        if line := difference(file.parent, made):
+            shown.tell(line)
+        return made
 
     try:
         if spec.kind.is_solve:

@@ -27,13 +27,13 @@ from ..rigs.solids.end_rig import EndRig
 from ..rigs.solids.wave_rig import SolidWaveRig
 from ..rigs.wave_rig import WaveRig
 from ..runs.asked import write_report
+from ..runs.kept_packing import keep
 from ..runs.loading_rate import Loading
 from ..runs.loading_start import LoadingStart
 from ..runs.output import RESULT, ROSE, Output
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Foresee, Runner
 from ..runs.written import about, write_files, write_so_far
-from ..specimens.files import given
 from . import halving
 from .outcome import outcome
 from .part_tests import part_rig, prepared
@@ -61,7 +61,9 @@ def carry_out(
     """
     spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
     if folder is not None:
-        given.save(folder, plan.specimen)
+        packing = keep(folder, plan.specimen)
+        if checkpoint is not None:
+            checkpoint.packing = packing
     start = LoadingStart(folder)
     runner = Runner(checkpoint, progress, foresee)
     restore = checkpoint.restore if checkpoint is not None and checkpoint.found else None

@@ -29,6 +29,7 @@ from .._version import __version__
 from ..errors import InputError
 from ..files import FolderLock, Table, json_text, read_json, whole_file, write_text
 from ..require import POSITIVE, require_number
+from .kept_packing import ENTRY
 from .output import RESULT, is_of_flexpm, refuse_other_result
 from .run_spec import RunSpec, law_of
 
@@ -46,6 +47,7 @@ _CHECKSUM = "sha256"
 _ENGINES = ("ForceResetter", "InsertionSortCollider", "InteractionLoop", "NewtonIntegrator")
 #: Entries that not all runs have.
 _HALVED = ("start", "tried")
+_OPTIONAL = (*_HALVED, ENTRY)
 _START = {"stage", "step", "sha256"}
 #: More stages than any test has; a script's own may have many cycles.
 _MOST_STAGES = 10**6
@@ -90,6 +92,7 @@ class Checkpoint:
         position: How far the run has come.
         interval: Wall time between two checkpoints [s].
         resumed_at: Step at which an earlier run was taken up, or None.
+        packing: Checksum of the specimen's file beside it; empty if none is kept.
         told: What is saved beside: state of the frames, and the calls of a script's own test.
         telling: Returns it when the checkpoint is saved; None: nothing is saved beside.
     """
@@ -113,6 +116,7 @@ class Checkpoint:
         self._scene: Path | None = None
         self.position = Position()
         self.resumed_at: int | None = None
+        self.packing = ""
         self.told: Table = {}
         self.telling: Callable[[], Table] | None = None
         self._lock = FolderLock(folder)
@@ -173,6 +177,8 @@ class Checkpoint:
 
     def _about(self, scene: Path) -> Table:
         about = {"scene": scene.name, **self.position.to_json(), **self._build}
+        if self.packing:
+            about[ENTRY] = self.packing
         return about | {"inputs": self._inputs, **({"told": self.told} if self.told else {})}
 
     def _read(self, file: Path) -> None:
@@ -293,10 +299,11 @@ def _require_entries(file: Path, content: Table) -> None:
         "start": lambda start: isinstance(start, dict)
         and (not start or (start.keys() == _START and _is_count(start["stage"]))),
         "tried": lambda tried: isinstance(tried, list) and len(tried) <= _MOST_TRIED,
+        ENTRY: lambda checksum: isinstance(checksum, str),
         _CHECKSUM: lambda checksum: isinstance(checksum, str),
     }
     for name, holds in rules.items():
-        if name not in content and name in _HALVED:
+        if name not in content and name in _OPTIONAL:
             continue
         if name not in content:
             raise _no_checkpoint(file, KeyError())

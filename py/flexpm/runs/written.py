@@ -21,6 +21,7 @@ from ..results.result_checks import SO_FAR, UNFINISHED
 from ..results.solids.state import SolidSnapshot, drawn_state
 from ..results.vtu import write_vtu
 from ..specimens.files import given
+from . import kept_packing
 
 #: Picture of the outside of a solid.
 OUTSIDE = "outside.png"
@@ -28,7 +29,7 @@ OUTSIDE = "outside.png"
 FILES = (
     SO_FAR,
     *("result.json", "curve.csv", "cracks.csv", "events.csv", "fragments.csv"),
-    *("final.vtu", given.FILE),
+    *("final.vtu", given.FILE, kept_packing.FILE),
     *("curve.png", "cracks.png", "events.png", "fragments.png"),
     REPORT,
     OUTSIDE,

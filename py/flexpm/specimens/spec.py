@@ -38,6 +38,8 @@ SIZES: dict[str, dict[str, float]] = {
 }
 #: File beside the results of a run on a specimen that no packing gives again.
 GRAINS_FILE = "grains.json"
+#: File of a packing, which spares a resumed run from packing again.
+PACKING_FILE = "packing.json"
 _ALL_SIZES = ("width", "height", "diameter")
 #: Memory of packing, cells, file and picture [bytes a grain], measured on 15 915 grains.
 _MEMORY = 3_000

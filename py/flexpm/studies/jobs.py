@@ -28,6 +28,7 @@ from ..runs.output import Output
 from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
 from ..specimens.space.any_spec import AnySpec
+from ..specimens.spec import PACKING_FILE
 
 #: Tests of a study; `elastic` is the direct solve.
 _TESTS = tuple(KINDS)
@@ -298,7 +299,7 @@ def conclude(job: Task, folder: Path, done: CompletedProcess[str] | BaseExceptio
     if done.returncode in _FINAL:
         folder.mkdir(parents=True, exist_ok=True)
         write_text(folder / _OUTCOME, json_text(outcome))
-        _remove_checkpoint(folder)  # the largest file, of no use any more
+        _remove_checkpoint(folder)  # the largest files, of no use any more
     return outcome
 
 
@@ -314,7 +315,7 @@ def _message(done: CompletedProcess[str]) -> str:
 
 
 def _remove_checkpoint(folder: Path) -> None:
-    for file in folder.glob("checkpoint*"):
+    for file in (*folder.glob("checkpoint*"), folder / PACKING_FILE):
         file.unlink(missing_ok=True)
 
 

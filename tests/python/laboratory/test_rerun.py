@@ -18,8 +18,9 @@ from flexpm.materials.mixing import from_description
 from flexpm.models.options import MODELS
 from flexpm.runs.asked import read_inputs
 from flexpm.runs.run_spec import RunSpec, described
-from flexpm.specimens.files import given
-from flexpm.specimens.spec import SpecimenSpec
+from flexpm.specimens.files import given, specimen_file
+from flexpm.specimens.space import file as solid_file
+from flexpm.specimens.spec import PACKING_FILE, SpecimenSpec
 
 ROOT = Path(__file__).resolve().parents[3]
 MINERALS = ROOT / "scripts" / "tutorials" / "two_minerals.toml"
@@ -65,6 +66,40 @@ def test_a_run_is_repeated_from_its_file_alone(capsys, tmp_path):
         assert (first / name).read_bytes() == (second / name).read_bytes(), name
     before, now = (json.loads((one / "result.json").read_text()) for one in (first, second))
     assert now["inputs"] == before["inputs"]
+
+
+PLANE = SMALL[:-1]
+SOLID = ["--shape", "box", "--width", "0.009", "--depth", "0.009", "--height", "0.018"]
+
+
+@pytest.mark.parametrize(("sizes", "key"), [(PLANE, "discs"), (SOLID, "spheres")])
+def test_another_packing_than_before_is_told_in_one_line(capsys, tmp_path, sizes, key):
+    def told() -> list[str]:
+        capsys.readouterr()
+        assert cli.main(["rerun", str(first), "--quiet", "--out", str(tmp_path / "second")]) == 3
+        return [line for line in capsys.readouterr().out.splitlines() if line.startswith("packing")]
+
+    first = tmp_path / "first"
+    assert cli.main(["run", "tension", *sizes, *SHORT, "--quiet", "--out", str(first)]) == 3
+    file = first / PACKING_FILE
+    assert told() == []
+    content = json.loads(file.read_text())
+    del content["format"], content["checksum"]
+    grains = len(content[key])
+    content[key][3][0] *= 1.0 + 1e-15
+    (solid_file if key == "spheres" else specimen_file).write(file, content)
+    (line,) = told()
+    assert f"packing differs in 1 of {grains} grains from {file}, by up to " in line
+    del content[key][3]
+    if key == "discs":
+        del content["cells"][3]
+    (solid_file if key == "spheres" else specimen_file).write(file, content)
+    assert told() == [f"packing has {grains} grains, {grains - 1} in {file}"]
+    file.write_text(file.read_text().replace("0.0", "0.1"))
+    (line,) = told()
+    assert line.startswith(f"packing is not compared: specimen = '{file}', was changed")
+    file.unlink()
+    assert told() == []
 
 
 def test_other_numbers_are_told_by_their_names(capsys, tmp_path):
