@@ -143,6 +143,43 @@ def write_parts(path: Path | str, parts: Iterable[bytes | memoryview]) -> None:
         file.writelines(parts)
 
 
+@contextlib.contextmanager
+def scratch_beside(path: Path | str) -> Iterator[Path]:
+    """Yield the name of a temporary file beside `path`, which is gone after the block."""
+    path = Path(path)
+    target = _replaced(path)
+    scratch = _beside(target or Path(tempfile.gettempdir(), path.name))
+    try:
+        yield scratch
+    finally:
+        with contextlib.suppress(OSError):
+            scratch.unlink()
+
+
+def require_room(path: Path, size: int) -> None:
+    """Ask the disk for room for a file that a library is about to write.
+
+    Args:
+        path: The file.
+        size: Its largest size [byte], > 0.
+
+    Raises:
+        OSError: if the disk, a quota or a limit of the process refuses it.
+    """
+    handle = os.open(path, os.O_CREAT | os.O_WRONLY, _MODE)
+    try:
+        os.posix_fallocate(handle, 0, size)
+    finally:
+        os.close(handle)
+
+
+def lines_of(path: Path, longest: int) -> Iterator[bytes]:
+    """Lines of a file, longer ones in parts of so many bytes."""
+    with path.open("rb") as file:
+        while line := file.readline(longest):
+            yield line
+
+
 def write_text(path: Path | str, text: str) -> None:
     """Write `text` as UTF-8 with Unix line ends, whole or not at all."""
     with whole_file(path) as temporary:

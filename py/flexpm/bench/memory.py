@@ -6,7 +6,6 @@ Times in seconds, sizes in bytes.
 
 from __future__ import annotations
 
-import ctypes
 import gc
 import os
 import time
@@ -18,6 +17,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 import yade
 
+from .._flexpm import give_back_memory
 from ..models.grains import build
 from ..progress import Progress
 from ..results.vtu import write_vtu
@@ -109,4 +109,4 @@ def resident() -> int:
 def give_back() -> None:
     """Return freed memory to the system, so that what is taken next is counted."""
     gc.collect()
-    ctypes.CDLL("libc.so.6").malloc_trim(0)
+    give_back_memory()

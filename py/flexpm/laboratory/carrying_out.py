@@ -10,6 +10,7 @@ from pathlib import Path
 
 import yade
 
+from .._flexpm import give_back_memory
 from ..kinds.option import END_FRICTION, JAW_RADIUS
 from ..kinds.pulse import FREE, SIDES
 from ..kinds.test_kind import Rig, Stage
@@ -117,12 +118,14 @@ def _tested(
         interaction_range=spec.interaction_range,
         threads=threads,
     )
+    give_back_memory()  # making a large solid takes twice what it needs
     if restore is not None:
         restore()
         built.rebind()
         built.set_threads(threads)
     elif folder is not None:
         write_vtu(folder / "specimen.vtu", built.snapshot(), about(spec.to_json()))
+        give_back_memory()
         if specimen.spec.networks:
             from ..report.rose import rose_picture
 
@@ -137,7 +140,10 @@ def _tested(
             rig.keep_start(start)
         _STAGES[stage](rig, spec)
     rig.finish()
-    return rig, outcome(rig, spec)
+    give_back_memory()
+    result = outcome(rig, spec)
+    give_back_memory()
+    return rig, result
 
 
 def _leave(folder: Path, rig: TestRig, spec: RunSpec) -> None:

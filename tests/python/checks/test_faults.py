@@ -37,20 +37,32 @@ def test_a_grid_reaches_the_disk_by_way_of_python(tmp_path):
     assert content.startswith(b"<?xml") and content.endswith(b"</VTKFile>\n")
 
 
-#: Writes a grid where no file may be longer than a thousand bytes.
+#: Writes a grid where no file may be longer than so many bytes.
 LIMITED = """
 import resource, sys
 import flexpm
-state = flexpm.build(flexpm.Specimen.rectangle(0.012, 0.024, 0.01)).snapshot()
-resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+state = flexpm.build(flexpm.Specimen.{specimen}).snapshot()
+resource.setrlimit(resource.RLIMIT_FSIZE, ({most}, {most}))
 flexpm.export.write_vtu(sys.argv[1], state)
 """
 
 
-def test_a_grid_that_is_refused_leaves_no_file(package_parent, tmp_path):
+@pytest.mark.parametrize(
+    ("specimen", "most"),
+    [
+        ("rectangle(0.012, 0.024, 0.01)", 1000),
+        ("box(0.009, 0.009, 0.009)", 1000),
+        ("box(0.009, 0.009, 0.009)", 60_000),  # some arrays have room
+    ],
+)
+def test_a_grid_that_is_refused_leaves_no_file(package_parent, tmp_path, specimen, most):
     done = captured(
-        [sys.executable, "-c", LIMITED, str(tmp_path / "grid.vtu")],
+        [
+            *(sys.executable, "-c", LIMITED.format(specimen=specimen, most=most)),
+            str(tmp_path / "grid.vtu"),
+        ],
         env={**os.environ, "PYTHONPATH": str(package_parent)},
     )
     assert "OSError: [Errno 27]" in done.stderr
+    assert str(tmp_path / "grid.vtu") in done.stderr
     assert list(tmp_path.iterdir()) == []

@@ -78,7 +78,7 @@ struct generic_product_impl<flexpm::FreeStiffness, Right, SparseShape, DenseShap
     static void scaleAndAddTo(
         To& to, const flexpm::FreeStiffness& left, const Right& right, const double& factor)
     {
-        const flexpm::Numbers u = right;
+        const Eigen::Ref<const flexpm::Numbers> u(right);
         flexpm::Numbers forces = flexpm::Numbers::Zero(left.rows());
         left.on().forces.add(u.data(), forces.data());
         left.on().project(forces);
@@ -122,9 +122,10 @@ private:
     const std::vector<std::uint8_t>* held_ = nullptr;
 };
 
-Numbers numbers(const std::vector<double>& values)
+/// Numbers as Eigen takes them, in their place.
+Eigen::Map<const Numbers> numbers(const std::vector<double>& values)
 {
-    return Eigen::Map<const Numbers>(values.data(), static_cast<Eigen::Index>(values.size()));
+    return { values.data(), static_cast<Eigen::Index>(values.size()) };
 }
 
 }  // namespace
@@ -134,6 +135,7 @@ FreeSolution solve_free(const LinearForces& forces, const std::vector<std::uint8
 {
     const Operator on { forces, held };
     Numbers right = numbers(load);
+    load = std::vector<double>();  // of a large solid each vector of unknowns is 0.1 GB
     on.project(right);
     const FreeStiffness matrix(on);
     Eigen::ConjugateGradient<FreeStiffness, Eigen::Lower | Eigen::Upper, TwoLevelPreconditioner>

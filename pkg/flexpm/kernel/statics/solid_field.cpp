@@ -72,10 +72,12 @@ void add_faces(const SolidState& s, const NodeNumbers& numbers, LinearSolid& sol
         face.shear_stiffness = c.law_of(contact).shear_stiffness;
         const int corners = c.corners_of(contact);
         face.springs.reserve(c.points_of(contact));
-        for (int side = 0; side < 2; ++side)
+        for (int side = 0; side < 2; ++side) {
+            face.nodes[side].reserve(corners);
             for (int k = 0; k < corners; ++k)
                 face.nodes[side].push_back(
                     numbers.of(c.pairs[contact][side], c.node(contact, side, k)));
+        }
         for (int p = 0; p < c.points_of(contact); ++p) {
             std::vector<double> shares;
             shares.reserve(corners);
@@ -290,7 +292,8 @@ SolidField field_of_nodes(const SolidState& s, const SolidDrive& drive, const So
     add_given(solid, given, load);
     const auto floating =
         floating_nodes(s, [&](int grain, int node) { return numbers.of(grain, node); });
-    const FreeSolution found = solve_floating(solid, floating, held, load, guess);
+    const FreeSolution found =
+        solve_floating(solid, floating, std::move(held), std::move(load), std::move(guess));
     SolidField field;
     for (std::size_t n = 0; n < solid.places.size(); ++n)
         field.ways.push_back(triple_at(given.data(), static_cast<int>(n))
@@ -319,7 +322,8 @@ SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, const S
         s, drive, [&](int grain, int, int axis, double way) { given[6 * grain + axis] = way; });
     add_given(rigid, given, load);
     const auto floating = floating_nodes(s, [](int grain, int) { return 2 * grain; });
-    FreeSolution found = solve_floating(rigid, floating, held, load, guess);
+    FreeSolution found =
+        solve_floating(rigid, floating, std::move(held), std::move(load), std::move(guess));
     for (std::size_t i = 0; i < given.size(); ++i)
         found.u[i] += given[i];
     SolidField field;

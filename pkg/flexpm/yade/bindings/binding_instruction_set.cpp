@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Python access to the choice of an instruction set.
+/// @file  Python access to the process: its instruction set and its memory.
 #include <flexpm/yade/bindings/bindings.hpp>
 
 #include <flexpm/kernel/core/instruction_set.hpp>
+#include <flexpm/kernel/core/memory.hpp>
 
 #include <boost/python.hpp>
 
@@ -43,6 +44,7 @@ void register_instruction_set_bindings()
 	        useInstructionSet,
 	        py::arg("name"),
 	        "Use an instruction set from now on, in all specimens of the process. Results do not depend on it.");
+	py::def("give_back_memory", flexpm::give_back_memory, "Give freed memory back to the system.");
 }
 
 } // namespace flexpm_bindings

@@ -10,7 +10,7 @@ void register_assembly_bindings();
 /// Outline, Tessellation, GrainMeshes; disc_count, disc_radii, insert_discs, tessellate, grain_meshes.
 void register_geometry_bindings();
 
-/// instruction_sets, instruction_set, use_instruction_set.
+/// instruction_sets, instruction_set, use_instruction_set; give_back_memory.
 void register_instruction_set_bindings();
 
 /// StrainGauge; scales, stresses and end of a test.

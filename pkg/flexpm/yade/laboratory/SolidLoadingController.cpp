@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/yade/laboratory/SolidLoadingController.hpp>
 
+#include <flexpm/kernel/core/memory.hpp>
 #include <flexpm/kernel/laboratory/preload.hpp>
 #include <flexpm/kernel/laboratory/solid_drive.hpp>
 #include <flexpm/yade/solver/GrainSolver.hpp>
@@ -28,7 +29,9 @@ flexpm::SolidDrive SolidLoadingController::driveOf(const flexpm::SolidState& sta
 
 flexpm::SolidField SolidLoadingController::fieldOf(const flexpm::SolidState& state, int threads) const
 {
-	return movesTop() ? flexpm::elastic_field(state, threads) : flexpm::elastic_field(state, driveOf(state), threads);
+	const auto field = movesTop() ? flexpm::elastic_field(state, threads) : flexpm::elastic_field(state, driveOf(state), threads);
+	flexpm::give_back_memory(); // the solution has needed as much again as the state
+	return field;
 }
 
 void SolidLoadingController::action()

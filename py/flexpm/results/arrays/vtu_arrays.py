@@ -56,12 +56,17 @@ def write_grid(path: Path | str, grid: vtkUnstructuredGrid) -> None:
 
 def content_of(grid: vtkUnstructuredGrid) -> bytes:
     """Content of the file of a grid."""
+    return written(writer_of(grid))
+
+
+def writer_of(grid: vtkUnstructuredGrid) -> vtkXMLUnstructuredGridWriter:
+    """VTK's writer of a grid."""
     writer = vtkXMLUnstructuredGridWriter()
     writer.SetInputData(grid)
     # as text: raw data are no XML, and VTK up to 9.2 reads none with expat 2.6 or its backports
     writer.SetDataModeToBinary()
     writer.SetCompressorTypeToLZ4()
-    return written(writer)
+    return writer
 
 
 def joined(first: dict[str, Named], second: dict[str, Named]) -> dict[str, Named]:

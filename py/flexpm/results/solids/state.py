@@ -23,8 +23,8 @@ _PLANE = (0, 2)
 _IN_PLANE = (0, 2, 4)
 #: Edges of a tetrahedron by its corners.
 _EDGES = np.array([(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)])
-#: Tetrahedra whose stresses are matrices at the same time.
-_AT_ONCE = 100_000
+#: Tetrahedra that are computed at a time.
+_AT_ONCE = 20_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,10 +150,12 @@ class SolidSnapshot:
 
     @property
     def _volumes(self) -> FloatArray:
-        a, b, c = (self.reference[self.tetrahedra[:, k]] for k in (1, 2, 3))
-        origin = self.reference[self.tetrahedra[:, 0]]
-        crossed = np.cross(b - origin, c - origin)
-        volumes: FloatArray = np.abs(np.einsum("ij,ij->i", a - origin, crossed)) / 6.0
+        volumes = np.empty(len(self.tetrahedra))
+        for begin in range(0, len(volumes), _AT_ONCE):
+            part = slice(begin, begin + _AT_ONCE)
+            origin, a, b, c = (self.reference[nodes] for nodes in self.tetrahedra[part].T)
+            crossed = np.cross(b - origin, c - origin)
+            volumes[part] = np.abs(np.einsum("ij,ij->i", a - origin, crossed)) / 6.0
         return volumes
 
     @cached_property

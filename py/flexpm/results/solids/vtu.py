@@ -79,26 +79,38 @@ def write_solid_state(
 
 
 def _over_points(snapshot: SolidSnapshot) -> Iterator[vtkDataArray]:
-    moved = (snapshot.positions - snapshot.reference, snapshot.corners - snapshot.corner_reference)
-    yield made("displacement", (np.concatenate(moved), VECTOR))
-    still = np.zeros_like(snapshot.corners)
-    yield made("velocity", (np.concatenate((snapshot.velocities, still)), VECTOR))
+    nodes, points = len(snapshot.positions), len(snapshot.positions) + len(snapshot.corners)
+
+    def displacement() -> FloatArray:
+        found = np.empty((points, 3))
+        np.subtract(snapshot.positions, snapshot.reference, out=found[:nodes])
+        np.subtract(snapshot.corners, snapshot.corner_reference, out=found[nodes:])
+        return found
+
+    def velocity() -> FloatArray:
+        found = np.zeros((points, 3))
+        found[:nodes] = snapshot.velocities
+        return found
+
+    yield made("displacement", (displacement(), VECTOR))
+    yield made("velocity", (velocity(), VECTOR))
 
 
 def _over_cells(snapshot: SolidSnapshot) -> Iterator[vtkDataArray]:
-    grains, contacts = len(snapshot.tetrahedra), len(snapshot.contact_grains)
-    for name, array in _of_grains(snapshot):
-        yield made(name, _padded(array, 0, contacts))
-    for name, array in _of_contacts(snapshot).items():
-        yield made(name, _padded(array, grains, 0))
+    tetrahedra = len(snapshot.tetrahedra)
+    yield from _of_grains(snapshot)
+    for name, (values, components) in _of_contacts(snapshot).items():
+        found = _blank(tetrahedra + len(values), values)
+        found[tetrahedra:] = values
+        yield made(name, (found, components))
 
 
-def _padded(array: Named, before: int, after: int) -> Named:
-    """An array of grains or contacts over all cells, others nan or -1."""
-    values, components = array
-    blank = -1 if np.issubdtype(values.dtype, np.integer) else np.nan
-    first, last = (np.full((count, *values.shape[1:]), blank) for count in (before, after))
-    return np.concatenate((first, values, last)), components
+def _blank(rows: int, values: FloatArray | IntArray, columns: int = 0) -> FloatArray | IntArray:
+    """An array over all cells of the kind of `values`: nan, or -1 of integers."""
+    shape = (rows, columns) if columns else (rows,)
+    if np.issubdtype(values.dtype, np.integer):
+        return np.full(shape, -1, dtype=np.int32)
+    return np.full(shape, np.nan)
 
 
 def state_of_grid(grid: Grid) -> SolidSnapshot:
@@ -187,11 +199,13 @@ def _grid_of(
     counts = (len(shape.nodes) + len(shape.vertices), tetrahedra + contacts)
 
     def every_cell() -> Iterator[vtkDataArray]:
-        kinds = np.repeat(np.array([GRAIN, CONTACT]), (tetrahedra, contacts))
-        yield made("kind", (kinds, ()))
+        kinds = np.array([GRAIN, CONTACT], dtype=np.int32)
+        yield made("kind", (np.repeat(kinds, (tetrahedra, contacts)), ()))
         yield made("grain", (np.concatenate((shape.grains, shape.pairs[:, 0])), ()))
-        none = np.full(tetrahedra, -1)
-        yield made("neighbour", (np.concatenate((none, shape.pairs[:, 1])), ()))
+        second = _blank(tetrahedra + contacts, shape.pairs)
+        second[tetrahedra:] = shape.pairs[:, 1]
+        yield made("neighbour", (second, ()))
+        del second
         yield from cells
 
     def places() -> Iterator[vtkDataArray]:
@@ -215,16 +229,31 @@ def _plain(name: str, array: vtkDataArray) -> vtkDataArray:
     return array
 
 
-def _of_grains(snapshot: SolidSnapshot) -> Iterator[tuple[str, Named]]:
+def _of_grains(snapshot: SolidSnapshot) -> Iterator[vtkDataArray]:
+    """Arrays of tetrahedra, one alive at a time: that of all stresses is a tenth of a state."""
     grain, mineral = snapshot.tetrahedron_grain, snapshot.grain_mineral
-    yield "fragment", (snapshot.fragments.labels[grain], ())
-    yield "stress", (snapshot.tetrahedron_stress[:, _ORDER], TENSOR)
-    yield "grain_stress", (snapshot.grain_stress[:, _ORDER][grain], TENSOR)
+    rows = len(grain) + len(snapshot.contact_grains)
+
+    def scalar(name: str, values: FloatArray | IntArray) -> vtkDataArray:
+        found = _blank(rows, values)
+        found[: len(grain)] = values
+        return made(name, (found, ()))
+
+    def tensor(name: str, stress: FloatArray, owner: IntArray | None = None) -> vtkDataArray:
+        found = _blank(rows, stress, len(TENSOR))
+        for to, component in enumerate(_ORDER):
+            values = stress[:, component]
+            found[: len(grain), to] = values if owner is None else values[owner]
+        return made(name, (found, TENSOR))
+
+    yield scalar("fragment", snapshot.fragments.labels[grain])
+    yield tensor("stress", snapshot.tetrahedron_stress)
+    yield tensor("grain_stress", snapshot.grain_stress, grain)
     principal = snapshot.principal_stresses
     for number in (1, 2, 3):
-        yield f"principal_stress_{number}", (principal[:, 3 - number], ())
+        yield scalar(f"principal_stress_{number}", principal[:, 3 - number])
     if mineral is not None:
-        yield "mineral", (mineral[grain], ())
+        yield scalar("mineral", mineral[grain])
 
 
 def _of_contacts(snapshot: SolidSnapshot) -> dict[str, Named]:

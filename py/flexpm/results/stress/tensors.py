@@ -7,6 +7,9 @@ import numpy as np
 
 from ...arrays import FloatArray, IntArray
 
+#: Rows that are weighted at a time: those of a large solid together take gigabytes.
+_AT_ONCE = 20_000
+
 
 def principal_stresses(stress: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Larger and smaller principal stress of the plane [Pa] from xx, yy, xy, shape (M, 3)."""
@@ -39,9 +42,12 @@ def means_by(values: FloatArray, weights: FloatArray, owners: IntArray, count: i
         count: Number of owners.
     """
     total = np.zeros((count, values.shape[1] + 1))
-    weighted = np.column_stack([values * weights[:, None], weights])
     for column in owners.T:
-        np.add.at(total, column, weighted)
+        for begin in range(0, len(values), _AT_ONCE):
+            part = slice(begin, begin + _AT_ONCE)
+            weight = weights[part]
+            weighted = np.column_stack([values[part] * weight[:, None], weight])
+            np.add.at(total, column[part], weighted)
     with np.errstate(invalid="ignore", divide="ignore"):
         found: FloatArray = total[:, :-1] / total[:, -1:]
     return found
