@@ -60,18 +60,6 @@ double spin_in(const Grains& grains, int grain, const Array<double>& velocity)
     return cross(arm, vector_at(velocity, n) - vector_at(velocity, c)) / dot(arm, arm);
 }
 
-/// Kinetic energy of all that is free to move [J].
-double kinetic_energy(const Assembly& a)
-{
-    double total = kinetic_of_velocities(a.grains);
-    for (const Plate& p : a.plates) {
-        if (p.loaded) total += 0.5 * p.mass * dot(p.velocity, p.velocity);
-    }
-    for (const NodeSet& set : a.node_sets)
-        total += kinetic_of_velocity(a, set);
-    return total;
-}
-
 /// Add to the motion of a rigid grain what is not held of it.
 void add_motion(Grains& grains, int grain, Point velocity, double spin)
 {
@@ -172,7 +160,7 @@ void start_elastically(Assembly& a, bool undamped, Held held)
 {
     const StaticSolution found = solution_along(a, held, 1.0);
     const Array<double>& velocity = found.displacement;
-    const double before = kinetic_energy(a);
+    const double before = kinetic_of_velocities(a);
     note_rates(a, found, 1.0);
     LoadingMotion& loading = a.loading;
     for (std::size_t i = 0; i < a.node_sets.size(); ++i) {
@@ -204,7 +192,7 @@ void start_elastically(Assembly& a, bool undamped, Held held)
             if (undamped) loading.grains.velocity[i] = velocity[i];
         });
     }
-    a.ledger.prescribed_work[0] += kinetic_energy(a) - before;
+    a.ledger.prescribed_work[0] += kinetic_of_velocities(a) - before;
 }
 
 bool renew_loading(Assembly& a, double sense)
@@ -246,7 +234,7 @@ void change_loading(Assembly& a, double ratio)
     check_finite("velocity of the loading over that before", ratio, "");
     Grains& grains = a.grains;
     LoadingMotion& loading = a.loading;
-    const double before = kinetic_energy(a);
+    const double before = kinetic_of_velocities(a);
     loading.plates.resize(a.plates.size());
     for (std::size_t i = 0; i < a.plates.size(); ++i)
         change_part(a.plates[i].velocity, loading.plates[i], ratio);
@@ -269,7 +257,7 @@ void change_loading(Assembly& a, double ratio)
             loading.grains.velocity[i] *= ratio;
         });
     }
-    a.ledger.prescribed_work[0] += kinetic_energy(a) - before;
+    a.ledger.prescribed_work[0] += kinetic_of_velocities(a) - before;
 }
 
 Array<double> loading_field(const Assembly& a)

@@ -231,30 +231,23 @@ double cut_area(const SolidState& s)
     return std::pow(volume, 2.0 / 3.0);
 }
 
-/// Time after which the first point of an unloaded specimen leaves its elastic branch.
-template <class State, class Velocity>
-double time_to_strength(const State& s, const Velocity& velocity)
-{
-    double least = infinite;
-    for_each_growth(s, velocity, [&](int c, int p, const auto& growth) {
-        if (point_now(s, c, p).damage >= 1.0) return;
-        const LawParameters& law = s.contacts.law_of(c);
-        const Strengths whole = { law.tensile_strength, law.cohesion, law.friction };
-        least = std::min(least, approach(whole, {}, growth).time);
-    });
-    return least;
-}
+/// Where the loading of a specimen begins.
+enum class StartState { unloaded, present };
 
-/// The same from the present state on; 0 if a point has left its elastic branch.
+/// Time after which the first point leaves its elastic branch: of an unloaded specimen, without
+/// the points that are cracked; from the present state on 0 if a point has left the branch.
 template <class State, class Velocity>
-double time_left_to_strength(const State& s, const Velocity& velocity)
+double time_to_strength(const State& s, const Velocity& velocity, StartState from)
 {
     double least = infinite;
-    for_each_growth(s, velocity, [&](int c, int p, const auto& growth) {
+    for_each_growth(s, velocity, [&](int c, int p, auto growth) {
         const auto [now, damage] = point_now(s, c, p);
+        const bool loaded = from == StartState::present;
+        if (!loaded && damage >= 1.0) return;
         const LawParameters& law = s.contacts.law_of(c);
         const Strengths whole = { law.tensile_strength, law.cohesion, law.friction };
-        least = damage > 0.0 ? 0.0 : std::min(least, approach(whole, now, growth).time);
+        const double time = approach(whole, loaded ? now : decltype(growth) {}, growth).time;
+        least = loaded && damage > 0.0 ? 0.0 : std::min(least, time);
     });
     return least;
 }
@@ -307,17 +300,17 @@ auto nodes_along(const SolidState& s, const SolidField& field, double sense)
 
 double elastic_time(const Assembly& a, const Array<double>& velocity)
 {
-    return time_to_strength(a, velocity);
+    return time_to_strength(a, velocity, StartState::unloaded);
 }
 
 double elastic_strain(const SolidState& s, const SolidField& field, double sense)
 {
-    return time_to_strength(s, nodes_along(s, field, sense));
+    return time_to_strength(s, nodes_along(s, field, sense), StartState::unloaded);
 }
 
 double elastic_strain_left(const SolidState& s, const SolidField& field, double sense)
 {
-    return time_left_to_strength(s, nodes_along(s, field, sense));
+    return time_to_strength(s, nodes_along(s, field, sense), StartState::present);
 }
 
 double factor_before_softening(

@@ -204,11 +204,12 @@ double kinetic_of_velocities(const Grains& grains)
     return total;
 }
 
-double kinetic_of_velocities(const SolidState& s)
+template <class State> double kinetic_of_velocities(const State& s)
 {
     double sum = kinetic_of_velocities(s.grains);
-    for (const RigidBody& body : s.bodies)
-        if (!body.spin_held) sum += 0.5 * dot(body.spin, body.angular_momentum);
+    if constexpr (!is_plane<State>)
+        for (const RigidBody& body : s.bodies)
+            if (!body.spin_held) sum += 0.5 * dot(body.spin, body.angular_momentum);
     for (const Plate& plate : s.plates)
         if (plate.loaded) sum += 0.5 * plate.mass * dot(plate.velocity, plate.velocity);
     for (const NodeSet& set : s.node_sets)
@@ -341,6 +342,8 @@ std::string find_bad_number(const BondedState& s)
 
 template Energies energies(const Assembly&);
 template Energies energies(const SolidState&);
+template double kinetic_of_velocities(const Assembly&);
+template double kinetic_of_velocities(const SolidState&);
 template Dissipation dissipation(const Assembly&);
 template Dissipation dissipation(const SolidState&);
 template double damping_power(const Assembly&, double);

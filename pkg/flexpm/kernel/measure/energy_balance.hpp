@@ -52,8 +52,8 @@ void reset_energy_balance(Assembly& a);
 /// Kinetic energy as if no force acted on the present velocities: 1/2 m v^2 [J].
 double kinetic_of_velocities(const Grains& grains);
 
-/// The same of grains that deform or are rigid and of loaded plates in 3D [J].
-double kinetic_of_velocities(const SolidState& s);
+/// The same of grains, loaded plates and floating node sets [J].
+template <class State> double kinetic_of_velocities(const State& s);
 
 /// Largest force component on a free node, on a loaded part per grain (D103), over the mean contact
 /// force [-]; of the last measured step. 1 if a node bears a force and no contact does; else 0.

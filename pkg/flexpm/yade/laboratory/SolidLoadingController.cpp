@@ -19,17 +19,21 @@ flexpm::SolidState& SolidLoadingController::stateOf(GrainSolver& solver)
 	return *state;
 }
 
-bool SolidLoadingController::movesTop() const { return plates.empty() && nodeSets.empty(); }
+flexpm::SolidDrive SolidLoadingController::driveOfParts() const
+{
+	return { plates, { direction[0], direction[1], direction[2] }, 1, nodeSets, backSets, turns };
+}
 
 flexpm::SolidDrive SolidLoadingController::driveOf(const flexpm::SolidState& state) const
 {
-	if (movesTop()) return flexpm::drive_of_top(state);
-	return { plates, { direction[0], direction[1], direction[2] }, 1, nodeSets, backSets, turns };
+	const auto parts = driveOfParts();
+	return parts.moves_top() ? flexpm::drive_of_top(state) : parts;
 }
 
 flexpm::SolidField SolidLoadingController::fieldOf(const flexpm::SolidState& state, int threads) const
 {
-	const auto field = movesTop() ? flexpm::elastic_field(state, threads) : flexpm::elastic_field(state, driveOf(state), threads);
+	const auto parts = driveOfParts();
+	const auto field = parts.moves_top() ? flexpm::elastic_field(state, threads) : flexpm::elastic_field(state, parts, threads);
 	flexpm::give_back_memory(); // the solution has needed as much again as the state
 	return field;
 }
@@ -58,7 +62,7 @@ void SolidLoadingController::action()
 
 void SolidLoadingController::preload(Real share, int steps)
 {
-	if (!movesTop()) refusePreload();
+	if (!driveOfParts().moves_top()) refusePreload();
 	const auto world  = Omega::instance().getScene();
 	const auto solver = GrainSolver::ofScene(*world);
 	auto&      state  = stateOf(*solver);

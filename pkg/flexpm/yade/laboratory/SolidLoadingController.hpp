@@ -36,7 +36,7 @@ public:
 
 private:
 	static flexpm::SolidState& stateOf(GrainSolver& solver);
-	bool                       movesTop() const;
+	flexpm::SolidDrive         driveOfParts() const;
 	flexpm::SolidDrive         driveOf(const flexpm::SolidState& state) const;
 	/// Its elastic solution.
 	flexpm::SolidField fieldOf(const flexpm::SolidState& state, int threads) const;
