@@ -8,6 +8,7 @@
 #include "fuzz/use_state.hpp"
 #include "support/sample_runs.hpp"
 
+#include <array>
 #include <map>
 #include <stdexcept>
 #include <type_traits>
@@ -51,6 +52,7 @@ private:
     void change(std::uint8_t& value) { value = bytes.raw<std::uint8_t>(); }
     void change(flexpm::Plane& value) { value = static_cast<flexpm::Plane>(bytes.whole(-1, 2)); }
     void change(flexpm::GrainPair& pair) { change(pair[bytes.byte() % 2]); }
+    void change(std::array<double, 3>& values) { change(values[bytes.byte() % 3]); }
     void change(std::map<flexpm::GrainPair, double>& pairs)
     {
         const int first = bytes.whole(-1, 40);

@@ -48,10 +48,10 @@ Covered covered(const Assembly& a, const Plate& plate)
 {
     Covered sum;
     for (int i = 0; i < plate_points(plate); ++i) {
-        const PlatePoint p = plate_point(plate, i);
+        const EdgePoint p = edge_point(plate, i);
         const Point x = vector_on_edge(a.grains.reference, a.facets.nodes(p.facet), p.weight);
-        sum.area += plate.area[i];
-        sum.centre += plate.area[i] * x.x;
+        sum.area += plate.points[i].area;
+        sum.centre += plate.points[i].area * x.x;
     }
     sum.centre /= sum.area;
     return sum;
@@ -77,10 +77,11 @@ TEST_CASE("A support presses evenly on just its part of the outline, about its m
     const Covered found = covered(a, plate);
     CHECK(plate.normal.y == Approx(1.0));
     CHECK(plate.width == Approx(length));
+    CHECK(plate.face_area == Approx(length * specimens::thickness));
     CHECK(found.area == Approx(length * specimens::thickness));
     CHECK(found.centre == Approx(x).epsilon(1e-9));
-    for (double gap : plate.gap)
-        CHECK(gap == 0.0);
+    for (const PlatePoint& point : plate.points)
+        CHECK(point.gap == 0.0);
 }
 
 TEST_CASE("A support needs an outline that faces it")
@@ -147,8 +148,9 @@ TEST_CASE("Parts that leave the specimen free to move are named before the loadi
     refused("resistance of the supports = 0 N, must be above 0: the specimen moves along y");
     b.plates.clear();
     const int corner = add_patch_plate(b, patch(width / 2, 0.0, 1e-4), { 0.0, 1.0, true });
-    b.plates[corner].area.assign(b.plates[corner].area.size(), 0.0);
-    b.plates[corner].area[0] = 1e-6;
+    for (PlatePoint& point : b.plates[corner].points)
+        point.area = 0.0;
+    b.plates[corner].points[0].area = 1e-6;
     scale_masses(b, 0.7);
     CHECK_THROWS_WITH(part_scales(b, { { corner }, {}, { 0.0, 1.0 }, 1.0, 1.0 }, 1.0, 1.0),
         Catch::Contains("against turning = 0"));

@@ -122,18 +122,18 @@ TEST_CASE("Rollers and head of a beam bear along lines across all of its depth",
         REQUIRE(s.plates.size() == 3);
         for (const Plate& plate : s.plates) {
             double length = 0.0, worst = 0.0;
-            for (std::size_t i = 0; i < plate.facets.size(); ++i) {
-                length += plate.area[i] / (0.5 * a);
+            for (const PlatePoint& point : plate.points) {
+                length += point.area / (0.5 * a);
                 double x = 0.0, sum = 0.0;
                 for (int k = 0; k < 3; ++k) {
-                    const double share = plate.shares[3 * i + k];
+                    const double share = point.weights[k];
                     CHECK(share > -1e-12);
                     sum += share;
-                    x += share * s.grains.reference[s.surface.nodes[plate.facets[i]][k]];
+                    x += share * s.grains.reference[s.surface.nodes[point.facet][k]];
                 }
                 CHECK(sum == Approx(1.0));
                 worst = std::max(worst, std::fabs(x - plate.position.x));
-                CHECK(plate.gap[i] < 1e-12);
+                CHECK(point.gap < 1e-12);
             }
             CHECK(length == Approx(few.depth));
             CHECK(worst < 1e-12);

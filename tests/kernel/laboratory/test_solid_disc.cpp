@@ -86,9 +86,9 @@ TEST_CASE("Plates touch a facet of a disc each, which does not move across", "[s
         REQUIRE(s.plates.size() == 2);
         for (const Plate& plate : s.plates) {
             double touched = 0.0;
-            for (std::size_t i = 0; i < plate.facets.size(); ++i) {
-                CHECK(plate.gap[i] >= 0.0);
-                if (plate.gap[i] == 0.0) touched += plate.area[i];
+            for (const PlatePoint& point : plate.points) {
+                CHECK(point.gap >= 0.0);
+                if (point.gap == 0.0) touched += point.area;
             }
             CHECK(touched == Approx(facet_area(p)).epsilon(1e-6));
             CHECK(pressed_area(plate) == 0.0);
@@ -139,19 +139,21 @@ TEST_CASE("A jaw has the gaps and normals of two circles, and a wide one is flat
     add_disc_plates(bent, radius);
     for (int side = 0; side < 2; ++side) {
         const Plate &plate = bent.plates[side], &like = wide.plates[side];
-        REQUIRE(plate.facets == flat.plates[side].facets);
-        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-            const Vector outwards = area_vector(bent, plate.facets[i]);
+        REQUIRE(plate.points.size() == flat.plates[side].points.size());
+        for (int i = 0; i < plate_points(plate); ++i) {
+            const PlatePoint &point = plate.points[i], &on_flat = flat.plates[side].points[i];
+            REQUIRE(point.facet == on_flat.facet);
+            const Vector outwards = area_vector(bent, point.facet);
             const double cosine = -dot(outwards, plate.normal) / norm(outwards);
             // the triangle of both centres and the place on the rim
             const double apart = radius - rim;
             const double way = std::sqrt(rim * rim + apart * apart + 2.0 * rim * apart * cosine);
-            CHECK(std::fabs(plate.gap[i] - (radius - way)) < 1e-8 * rim);
-            CHECK(std::fabs(like.gap[i] - rim * (1.0 - cosine)) < 1e-4 * rim);
+            CHECK(std::fabs(point.gap - (radius - way)) < 1e-8 * rim);
+            CHECK(std::fabs(like.points[i].gap - rim * (1.0 - cosine)) < 1e-4 * rim);
             CHECK(norm(point_normal(plate, i)) == Approx(1.0));
             CHECK(norm(point_normal(like, i) - plate.normal) < 1e-4);
             CHECK(dot(point_normal(plate, i), outwards) < 0.0);
-            CHECK((plate.gap[i] == 0.0) == (flat.plates[side].gap[i] == 0.0));
+            CHECK((point.gap == 0.0) == (on_flat.gap == 0.0));
         }
     }
     SolidState other = make_solid(p.cells, p.solid, granite());

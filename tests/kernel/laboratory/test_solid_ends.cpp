@@ -280,7 +280,7 @@ TEST_CASE("A plate only presses unless it is bonded, and lies on an end once", "
     for (int k = 0; k < 10; ++k)
         step(s, { dt, damping, 1, true });
     CHECK(end_forces(s).top == 0.0);
-    CHECK(s.plates.front().opening.front() == Approx(1e-8));
+    CHECK(s.plates.front().points.front().opening == Approx(1e-8));
     CHECK(energies(s).boundary_work == 0.0);
 
     SolidState soft = make_solid(p.cells, p.solid, granite());
@@ -317,16 +317,14 @@ TEST_CASE("Rough plates hold grains across as far as friction bears it", "[solid
                 < 2e-4 * e.elastic);
             double most = 0.0, sum = 0.0;
             for (const Plate& plate : s.plates) {
-                for (std::size_t i = 0; i < plate.facets.size(); ++i) {
+                for (int i = 0; i < plate_points(plate); ++i) {
                     if (friction[k] == 0.0) continue;
-                    const double along =
-                        std::hypot(plate.shear_force[3 * i], plate.shear_force[3 * i + 1]);
-                    const double pushed =
-                        point_stiffness(plate, static_cast<int>(i)) * -plate.opening[i];
+                    const double along = norm(point_shear(plate, i));
+                    const double pushed = point_stiffness(plate, i) * -plate.points[i].opening;
                     most = std::max(most, along / (friction[k] * std::max(pushed, 1e-300)));
-                    CHECK(plate.shear_force[3 * i + 2] == 0.0);
-                    CHECK(plate.rubbed[i] >= 0.0);
-                    sum += plate.rubbed[i];
+                    CHECK(point_shear(plate, i).z == 0.0);
+                    CHECK(plate.points[i].friction_energy >= 0.0);
+                    sum += plate.points[i].friction_energy;
                 }
             }
             CHECK(most <= 1.0 + 1e-12);

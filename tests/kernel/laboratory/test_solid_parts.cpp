@@ -93,14 +93,14 @@ TEST_CASE("A plate touches what of a side is in its box, to the hair", "[solids]
         SolidState bare = s;
         const Plate& plate =
             bare.plates[add_patch_plate(bare, side(p, right, 0.0, height * top.z))];
-        CHECK(plate.width == Approx(top.y * high).epsilon(1e-12));
+        CHECK(plate.face_area == Approx(top.y * high).epsilon(1e-12));
         Vector middle;
-        for (std::size_t i = 0; i < plate.facets.size(); ++i) {
-            CHECK(plate.gap[i] == 0.0);
+        for (const PlatePoint& point : plate.points) {
+            CHECK(point.gap == 0.0);
             for (int k = 0; k < 3; ++k)
                 middle = middle
-                    + plate.area[i] / plate.width * plate.shares[3 * i + k]
-                        * space_vector(s.grains.reference, s.surface.nodes[plate.facets[i]][k]);
+                    + point.area / plate.face_area * point.weights[k]
+                        * space_vector(s.grains.reference, s.surface.nodes[point.facet][k]);
         }
         CHECK(std::fabs(middle.x) < 1e-12 * top.x);
         CHECK(middle.y == Approx(0.5 * top.y).epsilon(1e-9));
@@ -150,7 +150,7 @@ TEST_CASE(
             press(s, 5, pressure * std::min(1.0, k / 1000.0));
             step(s, { dt, damping, 1, true });
         }
-        const double load = pressure * s.plates[5].width;
+        const double load = pressure * s.plates[5].face_area;
         CHECK(-s.plates[5].force.z == Approx(load).epsilon(1e-3));
         CHECK(s.plates[4].force.z == Approx(load).epsilon(1e-3));
         CHECK(balance(s).plate_share < 1e-3);
@@ -252,10 +252,10 @@ TEST_CASE("Static solutions under pressures bear them and superpose", "[solids]"
         const auto force = [&](int plate) {
             return (1.0 / both.way) * both.state.plates[plate].force;
         };
-        CHECK(-force(1).z == Approx(lid * s.plates[1].width).epsilon(1e-6));
-        CHECK(force(0).z == Approx(lid * s.plates[1].width).epsilon(1e-6));
-        CHECK(-force(2).x == Approx(wall * s.plates[2].width).epsilon(1e-6));
-        CHECK(force(3).x == Approx(wall * s.plates[3].width).epsilon(1e-6));
+        CHECK(-force(1).z == Approx(lid * s.plates[1].face_area).epsilon(1e-6));
+        CHECK(force(0).z == Approx(lid * s.plates[1].face_area).epsilon(1e-6));
+        CHECK(-force(2).x == Approx(wall * s.plates[2].face_area).epsilon(1e-6));
+        CHECK(force(3).x == Approx(wall * s.plates[3].face_area).epsilon(1e-6));
         const SolidPartState first = pressed({ { 1, lid }, { 2, 0.0 } });
         const SolidPartState second = pressed({ { 1, 0.0 }, { 2, wall } });
         const auto way = [](const SolidPartState& of, int plate, Vector along) {
@@ -265,8 +265,8 @@ TEST_CASE("Static solutions under pressures bear them and superpose", "[solids]"
             CHECK(way(both, plate, along)
                 == Approx(way(first, plate, along) + way(second, plate, along)).epsilon(1e-6));
         // Betti: what one load works on the way of the other
-        CHECK(lid * s.plates[1].width * way(second, 1, up)
-            == Approx(wall * s.plates[2].width * way(first, 2, right)).epsilon(1e-5));
+        CHECK(lid * s.plates[1].face_area * way(second, 1, up)
+            == Approx(wall * s.plates[2].face_area * way(first, 2, right)).epsilon(1e-5));
         // steps lead there
         SolidState moved = between_walls(p, rigid);
         for (int k = 0; k < 6000; ++k) {
@@ -278,7 +278,7 @@ TEST_CASE("Static solutions under pressures bear them and superpose", "[solids]"
         // driven by that way, it bears the load; another plate under a load gives way to none
         const SolidPartState driven = elastic_part_state(s, parts, dt);
         CHECK(driven.load / driven.way
-            == Approx(lid * s.plates[1].width / -way(first, 1, up)).epsilon(1e-5));
+            == Approx(lid * s.plates[1].face_area / -way(first, 1, up)).epsilon(1e-5));
         CHECK(std::fabs(driven.state.plates[2].force.x) < 1e-6 * driven.load);
         CHECK_THROWS_WITH(pressed({ { 0, lid } }), Catch::Contains("be free to move"));
         CHECK_THROWS_WITH(pressed({ { 1, 0.0 } }), Catch::Contains("under pressures = 0 m"));

@@ -188,7 +188,7 @@ TEST_CASE("a plate touches a polygon at its outermost point", "[plate]")
     const int plate = flexpm::add_touching_plate(a, { 0.0, -2.0 }, {});
     const flexpm::Plate& p = a.plates[plate];
     CHECK(p.normal.y == -1.0);
-    CHECK(*std::min_element(p.gap.begin(), p.gap.end()) == 0.0);
+    CHECK(flexpm::least_gap(p) == 0.0);
     CHECK(p.position.y == Approx(o.rigid ? 2.55e-3 : 2.8e-3));
     flexpm::fix_tangential(a, plate);
     int held = 0;
@@ -229,9 +229,9 @@ TEST_CASE("A plate is where its load acts: an even pressure has no moment there"
             CHECK(p.position.y == 0.0);
             double moment = 0.0;
             for (int i = 0; i < flexpm::plate_points(p); ++i) {
-                const auto point = flexpm::plate_point(p, i);
+                const auto point = flexpm::edge_point(p, i);
                 const auto nodes = a.facets.nodes(point.facet);
-                moment += p.area[i]
+                moment += p.points[i].area
                     * (flexpm::vector_on_edge(a.grains.reference, nodes, point.weight).x
                         - p.position.x);
             }

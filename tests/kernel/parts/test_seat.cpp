@@ -42,8 +42,8 @@ struct Row {
             std::fill(a.grains.spin_prescribed.begin(), a.grains.spin_prescribed.end(),
                 std::uint8_t { 1 });
             Plate& p = a.plates[plate];
-            for (std::size_t i = 0; i < p.area.size(); ++i)
-                if (p.arms[i] > 0.0) p.area[i] *= 2.0;
+            for (PlatePoint& point : p.points)
+                if (point.arm.z > 0.0) point.area *= 2.0;
         }
         scale_masses(a, 0.7);
     }
@@ -70,7 +70,7 @@ struct Row {
     {
         double sum = 0.0;
         for (int i = 0; i < plate_points(top()); ++i)
-            sum += top().arms[i] * dot(top().normal, point_force(top(), i));
+            sum += seat_arm(top(), i).z * dot(top().normal, point_force(top(), i));
         return sum;
     }
 };
@@ -80,7 +80,7 @@ std::pair<double, double> of_springs(const Plate& p)
 {
     double force = 0.0, both = 0.0, moment = 0.0;
     for (int i = 0; i < plate_points(p); ++i) {
-        const double k = plate_point(p, i).stiffness, arm = p.arms[i];
+        const double k = edge_point(p, i).stiffness, arm = p.points[i].arm.z;
         force += k;
         both += k * arm;
         moment += k * arm * arm;
@@ -121,8 +121,8 @@ TEST_CASE("A seated plate lies down on a face that is not parallel to it", "[pla
     const double tilt = GENERATE(-1e-5, 1e-5, -1e-3, 1e-3);
     // until both ends bear the steeper ones lie on one alone
     const double off = std::fabs(tilt) > 1e-4 ? 1e-7 : 0.0;
-    for (std::size_t i = 0; i < p.gap.size(); ++i)
-        p.gap[i] += tilt * p.arms[i] + off;
+    for (PlatePoint& point : p.points)
+        point.gap += tilt * point.arm.z + off;
     row.go(-1e-7 - off);
     const double whole = stiffness * columns * size * specimens::thickness / 3.0;
     CHECK(row.top().turn.z == Approx(tilt).epsilon(1e-6));
@@ -139,8 +139,8 @@ TEST_CASE("A seated plate with a point on one side of its seat turns away from i
     Row row(true);
     Plate& p = row.a.plates[row.plate];
     const double tilt = GENERATE(-1.0, 1.0);
-    for (std::size_t i = 0; i < p.gap.size(); ++i)
-        p.gap[i] += tilt * p.arms[i] > 0.0 ? 1e-5 : 0.0;
+    for (PlatePoint& point : p.points)
+        point.gap += tilt * point.arm.z > 0.0 ? 1e-5 : 0.0;
     row.go(-1e-7, 50);
     CHECK(std::fabs(row.top().force.y) < 1e-12 * stiffness);
     CHECK(row.top().turn.z * tilt > 0.0);
@@ -158,8 +158,8 @@ TEST_CASE("A seated plate is laid down on what is before it", "[plate]")
         columns * size, { 0.0, -1.0 } };
     const Plate& p = a.plates[add_patch_plate(a, patch, { 0.0, 0.0, false, 0.0, true })];
     CHECK(p.turn.z == Approx(slope).margin(1e-12));
-    for (double opening : p.opening)
-        CHECK(std::fabs(opening) < 1e-12 * size);
+    for (const PlatePoint& point : p.points)
+        CHECK(std::fabs(point.opening) < 1e-12 * size);
 }
 
 TEST_CASE("A plate without a seat does not turn", "[plate]")
@@ -175,8 +175,8 @@ TEST_CASE("Static solutions let a seat turn as the steps do", "[plate]")
 {
     Row row(false);
     Plate& p = row.a.plates[row.plate];
-    for (std::size_t i = 0; i < p.area.size(); ++i)
-        if (p.arms[i] > 0.0) p.area[i] *= 3.0;
+    for (PlatePoint& point : p.points)
+        if (point.arm.z > 0.0) point.area *= 3.0;
     scale_masses(row.a, 0.7);
     Assembly linear = row.a;
     linear.plates[row.plate].displacement = { 0.0, -1e-7 };
@@ -202,8 +202,8 @@ TEST_CASE("A plate that is pressed and turns bears its load", "[plate]")
     Row row(false);
     Plate& p = row.a.plates[row.plate];
     const double tilt = 1e-6;
-    for (std::size_t i = 0; i < p.gap.size(); ++i)
-        p.gap[i] += tilt * p.arms[i];
+    for (PlatePoint& point : p.points)
+        point.gap += tilt * point.arm.z;
     press(row.a, row.plate, 1e6);
     row.run(6000);
     CHECK(row.top().force.y == Approx(-row.top().load).epsilon(1e-6));
@@ -220,9 +220,9 @@ TEST_CASE("A seated plate of a part of a side is found again by its seat", "[pla
     CHECK(find_patch_plate(a, patch, { 0.0, 0.0, false, 0.0, true }) == plate);
     CHECK(find_patch_plate(a, patch, {}) == -1);
     double moment = 0.0, largest = 0.0;
-    for (std::size_t i = 0; i < a.plates[plate].arms.size(); ++i) {
-        moment += a.plates[plate].arms[i] * a.plates[plate].area[i];
-        largest = std::max(largest, std::fabs(a.plates[plate].arms[i]));
+    for (const PlatePoint& point : a.plates[plate].points) {
+        moment += point.arm.z * point.area;
+        largest = std::max(largest, std::fabs(point.arm.z));
     }
     CHECK(std::fabs(moment) < 1e-15 * size);
     CHECK(largest > size);
@@ -234,8 +234,10 @@ TEST_CASE("A point at the seat bears without turning the plate, and is not alone
     o.rigid = true;
     Assembly a = specimens::assemble(specimens::grid(3, 1, size), o);
     const Plate& p = a.plates[add_side_plates(a, top_side, 1, { 0.0, 0.0, false, 0.0, true })[0]];
-    CHECK(std::count(p.arms.begin(), p.arms.end(), 0.0) == 1);
-    CHECK(*std::max_element(p.arms.begin(), p.arms.end()) == Approx(size));
+    REQUIRE(p.points.size() == 3);
+    for (int i = 0; i < 3; ++i)
+        CHECK(std::fabs(p.points[i].arm.z) == Approx(i == 1 ? 0.0 : size));
+    CHECK(p.points[1].arm.z == 0.0);
     Assembly one = specimens::assemble(specimens::grid(1, 1, size), o);
     CHECK_THROWS_WITH(add_side_plates(one, top_side, 1, { 0.0, 0.0, false, 0.0, true }),
         "points of a seated plate = 1, must be at least 2, apart");

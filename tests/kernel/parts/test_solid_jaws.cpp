@@ -28,7 +28,8 @@ SolidState made(const Packing& p, bool rigid = false)
 
 double area_of(const Plate& plate)
 {
-    return std::accumulate(plate.area.begin(), plate.area.end(), 0.0);
+    return std::accumulate(plate.points.begin(), plate.points.end(), 0.0,
+        [](double sum, const PlatePoint& point) { return sum + point.area; });
 }
 
 /// Distance of the facets from the axis [m].
@@ -62,12 +63,12 @@ TEST_CASE("A jaw lies before its angle of the mantle, to the hair", "[solids]")
     }
     // one of the disc's own radius touches everywhere, any other where it lies
     const int own = add_jaw_plate(s, { { 1.0, 0.0, 0.0 }, 1.0, 1.0, 0.3 });
-    for (double gap : s.plates[own].gap)
-        CHECK(gap == 0.0);
+    for (const PlatePoint& point : s.plates[own].points)
+        CHECK(point.gap == 0.0);
     const int wide = add_jaw_plate(s, { up, 1.5, 2.0 * pi / 3.0 });
     double touching = 0.0;
-    for (std::size_t i = 0; i < s.plates[wide].gap.size(); ++i)
-        if (s.plates[wide].gap[i] == 0.0) touching += s.plates[wide].area[i];
+    for (const PlatePoint& point : s.plates[wide].points)
+        if (point.gap == 0.0) touching += point.area;
     CHECK(touching == Approx(2.0 * rim * std::tan(0.5 * facet) * depth).epsilon(1e-9));
     CHECK(find_jaw_plate(s, { up, 1.5, 2.0 * pi / 3.0 }) == wide);
     CHECK(find_jaw_plate(s, { up, 1.6, 2.0 * pi / 3.0 }) == -1);
@@ -95,11 +96,11 @@ TEST_CASE("Jaws with friction hold a disc and bear what presses it", "[solids][m
         CHECK(std::fabs(s.plates[0].force.x) < 0.02 * load);
         CHECK(contact_angle(s, 0) >= 0.999 * 2.0 * std::tan(0.5 * facet_angle(p)));
         for (const Plate& plate : s.plates) {
-            for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-                const Vector shear { plate.shear_force[3 * i], plate.shear_force[3 * i + 1],
-                    plate.shear_force[3 * i + 2] };
+            for (int i = 0; i < plate_points(plate); ++i) {
+                const Vector shear = point_shear(plate, i);
                 // along the rim, within friction
-                const double pushed = std::max(-plate.opening[i], 0.0) * point_stiffness(plate, i);
+                const double pushed =
+                    std::max(-plate.points[i].opening, 0.0) * point_stiffness(plate, i);
                 CHECK(std::fabs(dot(shear, point_normal(plate, i))) <= 1e-9 * norm(shear));
                 CHECK(norm(shear) <= plate.friction * pushed * (1.0 + 1e-9));
             }

@@ -37,8 +37,8 @@ struct Seated {
         patch.seated = true;
         add_patch_plate(s, patch);
         Plate& p = s.plates[1];
-        for (std::size_t i = 0; i < p.area.size(); ++i)
-            if (p.arms[3 * i] + 0.5 * p.arms[3 * i + 1] > 0.0) p.area[i] *= 3.0;
+        for (PlatePoint& point : p.points)
+            if (point.arm.x + 0.5 * point.arm.y > 0.0) point.area *= 3.0;
         scale_masses(s, damping, dt);
         parts = { { 1 }, { 0 }, down, top.x * top.y, top.z };
     }
@@ -61,8 +61,8 @@ struct Seated {
     Vector moment() const
     {
         Vector sum;
-        for (int i = 0; i < static_cast<int>(top().facets.size()); ++i) {
-            const double gap = top().opening[i];
+        for (int i = 0; i < plate_points(top()); ++i) {
+            const double gap = top().points[i].opening;
             if (!top().bonded && gap >= 0.0) continue;
             sum = sum - point_stiffness(top(), i) * gap * point_arm(top(), i);
         }
@@ -146,7 +146,7 @@ TEST_CASE("A seated plate of space that is pressed bears its load alone", "[soli
             const SolidPartState linear = pressed_part_state(test.s, {}, { { 1, 1e6 } });
             press(test.s, 1, 1e6);
             test.go(8000);
-            const double load = 1e6 * test.top().width;
+            const double load = 1e6 * test.top().face_area;
             const Vector turn = (1.0 / linear.way) * linear.state.plates[1].turn;
             CHECK(dot(test.top().force, down) == Approx(load).epsilon(1e-3));
             CHECK(norm(test.moment()) < 1e-9 * load * a);
@@ -171,8 +171,8 @@ TEST_CASE("A seated plate of space is laid down on what is before it", "[solids]
     const Plate& p = s.plates[add_patch_plate(s, patch)];
     CHECK(p.turn.y == Approx(-along_x).epsilon(1e-9));
     CHECK(p.turn.x == Approx(along_y).epsilon(1e-9));
-    for (double opening : p.opening)
-        CHECK(std::fabs(opening) < 1e-12 * a);
+    for (const PlatePoint& point : p.points)
+        CHECK(std::fabs(point.opening) < 1e-12 * a);
 }
 
 TEST_CASE("A seated plate of space lies on three contacts around its seat", "[solids]")
@@ -188,9 +188,9 @@ TEST_CASE("A seated plate of space lies on three contacts around its seat", "[so
         const auto [first, second] = seat_axes(p.normal);
         int touching = 0;
         double least[] = { 1.0, 1.0, 1.0, 1.0 };
-        for (int i = 0; i < static_cast<int>(p.facets.size()); ++i) {
-            REQUIRE(p.opening[i] > -1e-9 * a);
-            if (p.opening[i] > 1e-9 * a) continue;
+        for (int i = 0; i < plate_points(p); ++i) {
+            REQUIRE(p.points[i].opening > -1e-9 * a);
+            if (p.points[i].opening > 1e-9 * a) continue;
             ++touching;
             const double x = dot(point_arm(p, i), first), y = dot(point_arm(p, i), second);
             const double ways[] = { x, -x, y, -y };
@@ -198,8 +198,9 @@ TEST_CASE("A seated plate of space lies on three contacts around its seat", "[so
                 least[k] = std::min(least[k], ways[k]);
         }
         CHECK(touching >= 3);
-        CHECK(std::count_if(p.opening.begin(), p.opening.end(), [](double o) { return o <= 0.0; })
-            == touching);
+        CHECK(std::count_if(p.points.begin(), p.points.end(), [](const PlatePoint& point) {
+            return point.opening <= 0.0;
+        }) == touching);
         CHECK(dot(p.normal, p.position) < 0.0);
         CHECK(*std::max_element(least, least + 4) <= 0.0);
         SolidPatch fixed = patch;

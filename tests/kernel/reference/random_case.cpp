@@ -216,9 +216,8 @@ void draw_plates(Random& random, Assembly& a, std::string& name)
             flexpm::add_wall(a, { -1.0 * std::cos(angle), -1.0 * std::sin(angle) },
                 { std::cos(angle), std::sin(angle) }, contact);
             // the wall is laid far away; bring it into reach
-            const auto& gap = a.plates.back().gap;
-            a.plates.back().displacement =
-                *std::min_element(gap.begin(), gap.end()) * a.plates.back().normal;
+            flexpm::Plate& wall = a.plates.back();
+            wall.displacement = flexpm::least_gap(wall) * wall.normal;
         } else {
             flexpm::add_touching_plate(a, draw_inward(random, a), contact);
         }

@@ -115,10 +115,10 @@ Plate read_plate(const Assembly& a, std::size_t place, const Numbers& number)
     plate.undamped_velocity = in_plane(a.loading.of_plate(place).velocity);
     plate.force = in_plane(from.force);
     for (int i = 0; i < flexpm::plate_points(from); ++i) {
-        const flexpm::PlatePoint p = flexpm::plate_point(from, i);
+        const flexpm::PlatePoint& p = from.points[i];
         const auto nodes = a.facets.nodes(p.facet);
-        plate.points.push_back({ { number.at(nodes[0]), number.at(nodes[1]) }, p.weight,
-            from.area[i], from.gap[i], from.shear_force[i] });
+        plate.points.push_back({ { number.at(nodes[0]), number.at(nodes[1]) }, p.weights[1], p.area,
+            p.gap, p.shear.x });
     }
     return plate;
 }

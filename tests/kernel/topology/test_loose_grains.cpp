@@ -170,7 +170,8 @@ TEST_CASE("Grains that touch a plate which is held are not loose")
     part(a, 1);
     flexpm::find_loose(a);
     CHECK(a.grains.loose == Loose { 0, 0, 0 });
-    std::fill(a.plates[0].opening.begin(), a.plates[0].opening.end(), 1e-9);
+    for (flexpm::PlatePoint& point : a.plates[0].points)
+        point.opening = 1e-9;
     flexpm::find_loose(a);
     CHECK(a.grains.loose == Loose { 0, 0, 1 });
 }

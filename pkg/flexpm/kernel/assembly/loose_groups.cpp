@@ -43,17 +43,17 @@ void mark_touching(const std::vector<Plate>& plates, const std::vector<int>& gra
 {
     for (const Plate& plate : plates) {
         if (plate.loaded) continue;
-        for (std::size_t i = 0; i < plate.opening.size(); ++i) {
-            if (plate.area[i] > 0.0 && (plate.bonded || plate.opening[i] <= 0.0))
-                marked[grain_of[plate.facets[i / plate.points]]] = 1;
+        for (const PlatePoint& point : plate.points) {
+            if (point.area > 0.0 && (plate.bonded || point.opening <= 0.0))
+                marked[grain_of[point.facet]] = 1;
         }
     }
 }
 
 bool bears_any(const Plate& plate, const std::vector<int>& grain_of, const Grains& grains)
 {
-    return std::any_of(plate.facets.begin(), plate.facets.end(),
-        [&](int facet) { return !grains.loose[grain_of[facet]]; });
+    return std::any_of(plate.points.begin(), plate.points.end(),
+        [&](const PlatePoint& point) { return !grains.loose[grain_of[point.facet]]; });
 }
 
 }  // namespace flexpm

@@ -1,19 +1,60 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Parts that hold and load a specimen: rigid plates against its outline, paper Sec. 4.1,
-/// and sets of nodes. SI units; forces are those on the specimen.
+/// and sets of nodes. All members mean the same in 2D and in 3D. SI units; forces are those on the
+/// specimen.
 #pragma once
 
 #include <flexpm/kernel/core/vector.hpp>
 
+#include <array>
 #include <vector>
 
 namespace flexpm {
 
+/// Point of a plate: where it may touch one facet of the boundary, which is an edge in 2D and a
+/// triangle in 3D. All points of a facet follow each other.
+struct PlatePoint {
+    int facet = 0;
+    std::array<double, 3> weights {};  ///< of the facet's nodes, two of an edge [-]
+    bool whole = false;                ///< the middle of its facet, which is all its own
+    double area = 0.0;                 ///< tributary to it [m^2]
+    Vector normal;         ///< into the specimen; of a jaw the point's own, else the plate's
+    Vector arm;            ///< of a plate with a seat, see seat_arm() [m]
+    double gap = 0.0;      ///< at the reference [m]
+    double opening = 0.0;  ///< gap at the last step [m]
+    Point shear;           ///< force on the grain along face_axes() [N]
+    Vector slip;           ///< sliding along the face, which friction opposes [m]
+    double friction_energy = 0.0;  ///< dissipated by that [J]
+
+    /// Calls visit(name, member) for all members.
+    template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
+    {
+        visit("facet", s.facet);
+        visit("weights", s.weights);
+        visit("whole", s.whole);
+        visit("area", s.area);
+        visit("normal_x", s.normal.x);
+        visit("normal_y", s.normal.y);
+        visit("normal_z", s.normal.z);
+        visit("arm_x", s.arm.x);
+        visit("arm_y", s.arm.y);
+        visit("arm_z", s.arm.z);
+        visit("gap", s.gap);
+        visit("opening", s.opening);
+        visit("shear_x", s.shear.x);
+        visit("shear_y", s.shear.y);
+        visit("slip_x", s.slip.x);
+        visit("slip_y", s.slip.y);
+        visit("slip_z", s.slip.z);
+        visit("friction_energy", s.friction_energy);
+    }
+};
+
 /// A straight plate that loads grains through one-point contacts. It does not turn; its normal
 /// points into the specimen, and forces are positive along it. Its contacts are the middles of
-/// facets of rigid grains, or both ends of those of deformable grains, each with half of the facet:
-/// a boundary node then carries its tributary length. Contacts are elastic and only
-/// press, unless the plate is bonded.
+/// facets of rigid grains and of triangles, or both ends of the edges of deformable grains, each
+/// with half of the edge: a boundary node then carries its tributary length. Contacts are elastic
+/// and only press, unless the plate is bonded.
 ///
 /// A jaw is a plate whose face is an arc of a circle: each point has a normal of its own, that of
 /// the arc at the reference (deviation D95).
@@ -24,20 +65,17 @@ struct Plate {
     int side = -1;                 ///< side of the outline it lies on; -1: none in particular
     Vector position;               ///< of its face at the reference, where its load acts [m]
     Vector normal;                 ///< unit vector
-    double width = 0.0;            ///< of the face that takes pressure [m]; in 3D its area [m^2]
+    double face_area = 0.0;        ///< of the face that takes pressure [m^2]
+    double width = 0.0;            ///< length of that face if it spans the thickness, else 0 [m]
     double stiffness = 0.0;        ///< normal stiffness per area K_n [Pa/m]
     double shear_stiffness = 0.0;  ///< [Pa/m], of frictional contacts
     double friction = 0.0;         ///< coefficient [-]; 0: smooth
     bool bonded = false;           ///< pulls as well as it presses
-    int points = 1;                ///< per facet: 1 in the middle, 2 at the ends
     double strip = 0.0;        ///< stiffness per area of a layer on its face, which `stiffness` has
                                ///< in series [Pa/m]; 0: none
     double jaw_radius = 0.0;   ///< of the arc of a jaw [m]; 0: straight
     double disc_radius = 0.0;  ///< of the disc in it [m]
-    std::vector<double> normals;  ///< of a jaw, [facet][point][axis], see point_normal()
-    bool seated = false;          ///< turns freely about its seat
-    std::vector<double> arms;     ///< of a seated one, see point_arm() [m]: in 2D [facet][point],
-                                  ///< in 3D [facet][axis]
+    bool seated = false;       ///< turns freely about its seat
 
     // what drives it
     bool loaded = false;  ///< moves along its normal under `load`; else `velocity` is prescribed
@@ -49,28 +87,18 @@ struct Plate {
     double machine_stiffness = 0.0;
 
     // state
-    Vector displacement;          ///< [m]
-    double machine_give = 0.0;    ///< what that spring is shorter by [m]
-    Vector turn;                  ///< of a seated one from square to its normal; in 2D about z,
-                                  ///< counter-clockwise [rad]
-    std::vector<int> facets;      ///< of the boundary, which may touch it
-    std::vector<double> gap;      ///< [facet][point] at the reference [m]
-    std::vector<double> area;     ///< [facet][point] [m^2]
-    std::vector<double> opening;  ///< [facet][point] gap at the last step [m]
-    /// On the grain, see point_shear(): in 2D [facet][point] along (-normal.y, normal.x), in 3D
-    /// [facet][axis] [N].
-    std::vector<double> shear_force;
-    std::vector<double> slid;    ///< in 3D [facet][axis]: where a contact with friction is [m]
-    std::vector<double> rubbed;  ///< in 3D [facet]: energy of friction [J]
-    /// In 3D [facet][corner]: shares of a triangle's corners in a contact; empty: equal ones.
-    std::vector<double> shares;
+    Vector displacement;        ///< [m]
+    double machine_give = 0.0;  ///< what that spring is shorter by [m]
+    Vector turn;                ///< of a seated one from square to its normal; in 2D about z,
+                                ///< counter-clockwise [rad]
+    std::vector<PlatePoint> points;
     Vector force;  ///< on the specimen at the last step [N]
 
     // energy [J]
     double boundary_work = 0.0, boundary_work_next = 0.0;  ///< next: of the half step that follows
     double damping_work = 0.0, damping_work_next = 0.0;
     double drag_work = 0.0, drag_work_next = 0.0;  ///< part of it, see EnergyLedger
-    double friction_energy = 0.0;
+    double friction_energy = 0.0;                  ///< of all points
     double kinetic = 0.0;
     double unbalanced = 0.0;  ///< force on a loaded plate that nothing balances [N]
 
@@ -84,18 +112,16 @@ struct Plate {
         visit("normal_x", s.normal.x);
         visit("normal_y", s.normal.y);
         visit("normal_z", s.normal.z);
+        visit("face_area", s.face_area);
         visit("width", s.width);
         visit("stiffness", s.stiffness);
         visit("shear_stiffness", s.shear_stiffness);
         visit("friction", s.friction);
         visit("bonded", s.bonded);
-        visit("points", s.points);
         visit("strip", s.strip);
         visit("jaw_radius", s.jaw_radius);
         visit("disc_radius", s.disc_radius);
-        visit("normals", s.normals);
         visit("seated", s.seated);
-        visit("arms", s.arms);
         visit("loaded", s.loaded);
         visit("load", s.load);
         visit("velocity_x", s.velocity.x);
@@ -110,14 +136,7 @@ struct Plate {
         visit("turn_x", s.turn.x);
         visit("turn_y", s.turn.y);
         visit("turn_z", s.turn.z);
-        visit("facets", s.facets);
-        visit("gap", s.gap);
-        visit("area", s.area);
-        visit("opening", s.opening);
-        visit("shear_force", s.shear_force);
-        visit("slid", s.slid);
-        visit("rubbed", s.rubbed);
-        visit("shares", s.shares);
+        visit("points", s.points);
         visit("force_x", s.force.x);
         visit("force_y", s.force.y);
         visit("force_z", s.force.z);

@@ -205,8 +205,8 @@ void find_presses(SolidState& s)
 {
     std::vector<std::vector<PlateTouch>> of_block(s.grains.blocks());
     for (std::size_t p = 0; p < s.plates.size(); ++p) {
-        for (std::size_t i = 0; i < s.plates[p].facets.size(); ++i) {
-            const int grain = s.surface.grain[s.plates[p].facets[i]];
+        for (std::size_t i = 0; i < s.plates[p].points.size(); ++i) {
+            const int grain = s.surface.grain[s.plates[p].points[i].facet];
             of_block[s.grains.block_of(grain)].push_back(
                 { static_cast<int>(p), static_cast<int>(i) });
         }

@@ -234,21 +234,9 @@ void check_facets(const Assembly& a)
 
 void check_plate(const Plate& plate, int facets)
 {
-    check_index("points of a plate", plate.points, 3, 1);
-    check_index("edges of a plate", static_cast<std::int64_t>(plate.facets.size()), most);
-    check_indices("edge of a plate", plate.facets, facets);
-    for (std::size_t size :
-        { plate.gap.size(), plate.area.size(), plate.opening.size(), plate.shear_force.size() }) {
-        check_size("values of a plate", size,
-            static_cast<std::int64_t>(plate.facets.size()) * plate.points);
-    }
-    if (plate.seated || !plate.arms.empty()) {
-        check_size("arms of a plate", plate.arms.size(),
-            static_cast<std::int64_t>(plate.facets.size()) * plate.points);
-    }
-    if (plate.jaw_radius == 0.0 && plate.normals.empty()) return;
-    check_size("normals of a jaw", plate.normals.size(),
-        2 * static_cast<std::int64_t>(plate.facets.size()) * plate.points);
+    check_index("points of a plate", static_cast<std::int64_t>(plate.points.size()), most);
+    for (const PlatePoint& point : plate.points)
+        check_index("edge of a plate", point.facet, facets);
 }
 
 void check_node_set(const Grains& grains, const NodeSet& set)

@@ -172,8 +172,8 @@ double contact_angle(const SolidState& s, int plate)
     const Plate& read = plate_of(s, plate);
     if (read.jaw_radius == 0.0) return 0.0;
     double low = read.position.y, high = low;
-    for (int t : read.facets) {
-        for (int n : s.surface.nodes[t]) {
+    for (const PlatePoint& point : read.points) {
+        for (int n : s.surface.nodes[point.facet]) {
             const double y = reference_of(s.grains, n).y;
             low = std::min(low, y);
             high = std::max(high, y);

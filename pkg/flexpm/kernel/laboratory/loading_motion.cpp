@@ -42,7 +42,7 @@ Vector velocity_before(const Assembly& a, const Plate& plate, const Array<double
 {
     double sum = 0.0;
     for (int i = 0; i < plate_points(plate); ++i) {
-        const PlatePoint p = plate_point(plate, i);
+        const EdgePoint p = edge_point(plate, i);
         const auto n = a.facets.nodes(p.facet);
         const auto parts = facet_parts(p.weight);
         for (int k = 0; k < facet_nodes; ++k)

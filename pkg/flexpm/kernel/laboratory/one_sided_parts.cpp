@@ -21,7 +21,10 @@ constexpr double small_gap = 1e-6;
 using OpenPoints = std::vector<PointMarks>;
 
 /// Whether a plate's point can open: it touches at the beginning, without a bond.
-bool presses(const Plate& plate, int point) { return !plate.bonded && plate.opening[point] <= 0.0; }
+bool presses(const Plate& plate, int point)
+{
+    return !plate.bonded && plate.points[point].opening <= 0.0;
+}
 
 /// Whether a plate is free to move and pressed by nothing: it gives way to all that would push it.
 bool is_idle(const SolidState& s, int number, const SolidPartLoading& loading)
@@ -38,10 +41,10 @@ SolidState with_open(SolidState s, const OpenPoints& open, double share)
 {
     for (std::size_t i = 0; i < s.plates.size(); ++i) {
         Plate& plate = s.plates[i];
-        for (std::size_t k = 0; k < plate.area.size(); ++k) {
+        for (std::size_t k = 0; k < plate.points.size(); ++k) {
             if (!open[i][k]) continue;
-            plate.area[k] *= share;
-            if (share == 0.0) plate.opening[k] = 1.0;
+            plate.points[k].area *= share;
+            if (share == 0.0) plate.points[k].opening = 1.0;
         }
     }
     return s;
@@ -97,7 +100,7 @@ double gap_of(const SolidState& s, int number, int point, const SolidState& move
     const Plate& plate = s.plates[number];
     const Plate& there = moved.plates[number];
     Vector way = -there.displacement;
-    const auto& nodes = s.surface.nodes[plate.facets[point]];
+    const auto& nodes = s.surface.nodes[plate.points[point].facet];
     for (int k = 0; k < 3; ++k)
         way =
             way + corner_share(plate, point, k) * space_vector(moved.grains.displacement, nodes[k]);
@@ -125,8 +128,8 @@ OpenPoints open_after(
     const double none = small_gap * largest_displacement(found);
     for (int i = 0; i < static_cast<int>(s.plates.size()); ++i) {
         const Plate& plate = s.plates[i];
-        open.emplace_back(plate.area.size(), 0);
-        for (int k = 0; k < static_cast<int>(plate.area.size()); ++k) {
+        open.emplace_back(plate.points.size(), 0);
+        for (int k = 0; k < plate_points(plate); ++k) {
             if (!presses(plate, k)) continue;
             double gap = 0.0;
             for (const SolidPartShare& one : found.shares)

@@ -54,7 +54,7 @@ RigidStiffness rigid_stiffness(const Assembly& a)
     RigidStiffness k { in_plane(extent.middle), extent.size };
     for (const Plate& plate : a.plates) {
         for (int i = 0; !plate.loaded && i < plate_points(plate); ++i) {
-            const PlatePoint p = plate_point(plate, i);
+            const EdgePoint p = edge_point(plate, i);
             const auto n = a.facets.nodes(p.facet);
             const StiffnessBlock springs = plate_springs(plate, i);
             k.add(grains.vector_on_edge(grains.reference, n, p.weight), springs);
@@ -92,7 +92,7 @@ void require_resistance(const Assembly& a)
     double stiffest = 1.0;
     for (const Plate& plate : a.plates) {
         for (int i = 0; !plate.loaded && i < plate_points(plate); ++i) {
-            const PlatePoint p = plate_point(plate, i);
+            const EdgePoint p = edge_point(plate, i);
             const auto n = a.facets.nodes(p.facet);
             const Vector place = grains.vector_on_edge(grains.reference, n, p.weight)
                 + grains.vector_on_edge(grains.displacement, n, p.weight);
@@ -150,7 +150,8 @@ constexpr double no_stiffness = 1e-12;
 /// Whether a plate's point bears as the plate goes this way against it: not if it lifts off.
 bool bears(const Plate& plate, int point, Vector way)
 {
-    return plate.bonded || plate.opening[point] < 0.0 || dot(point_normal(plate, point), way) > 0.0;
+    return plate.bonded || plate.points[point].opening < 0.0
+        || dot(point_normal(plate, point), way) > 0.0;
 }
 
 /// How a soft plate answers to the velocity of its crosshead, if it goes on bearing where it bears.
@@ -159,9 +160,9 @@ PlateLag lag_of(const Assembly& a, int number, const Array<double>& velocity)
     Plate plate = a.plates[number];
     if (!is_soft(plate) || plate.loaded) return {};
     for (int i = 0; i < plate_points(plate); ++i) {
-        const PlatePoint p = plate_point(plate, i);
+        const EdgePoint p = edge_point(plate, i);
         const Point v = a.grains.vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
-        if (!bears(plate, i, plate.velocity - v)) plate.area[i] = 0.0;
+        if (!bears(plate, i, plate.velocity - v)) plate.points[i].area = 0.0;
     }
     return plate_lag(a, plate, plate.velocity, &velocity);
 }
@@ -230,7 +231,7 @@ double part_load_rate(const Assembly& a, const PartGeometry& parts, const Array<
         const Plate& plate = a.plates[number];
         const PlateLag lag = lag_of(a, number, velocity);
         for (int i = 0; i < plate_points(plate); ++i) {
-            const PlatePoint p = plate_point(plate, i);
+            const EdgePoint p = edge_point(plate, i);
             const Point v = a.grains.vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
             const Vector way = point_way(plate, i, plate.velocity, lag) - v;
             if (!bears(plate, i, way)) continue;

@@ -100,12 +100,14 @@ Plate plate_along(const SolidState& s, SolidSide side, const BearingLine& line)
     for (const Crossing& one : found)
         nearest = std::min(nearest, p.normal.z * one.z);
     for (const Crossing& one : found) {
-        p.facets.push_back(one.triangle);
-        p.shares.insert(p.shares.end(), one.shares.begin(), one.shares.end());
-        p.area.push_back(one.length * line.width);
-        p.gap.push_back(p.normal.z * one.z - nearest);
+        PlatePoint point;
+        point.facet = one.triangle;
+        point.weights = one.shares;
+        point.area = one.length * line.width;
+        point.normal = p.normal;
+        point.gap = point.opening = p.normal.z * one.z - nearest;
+        p.points.push_back(point);
     }
-    p.opening = p.gap;
     centre_position(s, p);
     if (line.pinned) roughen(p, no_sliding);
     return p;

@@ -33,9 +33,9 @@ double push_rate(const SolidState& s, const std::vector<int>& plates, Vector dir
     for (int number : plates) {
         const Plate& plate = s.plates[number];
         const PlateRates follows = rates_of(s, plate, velocity);
-        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-            if (!(plate.bonded || plate.opening[i] < 0.0)) continue;
-            const auto& nodes = s.surface.nodes[plate.facets[i]];
+        for (int i = 0; i < plate_points(plate); ++i) {
+            if (!(plate.bonded || plate.points[i].opening < 0.0)) continue;
+            const auto& nodes = s.surface.nodes[plate.points[i].facet];
             Vector way = follows.give * plate.normal - plate.velocity;
             for (int k = 0; k < 3; ++k)
                 way = way + corner_share(plate, i, k) * space_vector(velocity, nodes[k]);
@@ -81,9 +81,9 @@ void require_resistance(const SolidState& s, const PartGeometry& parts)
         const bool loads = std::find(driven.begin(), driven.end(), number) != driven.end();
         if (plate.loaded && !loads) continue;
         const Vector way = loads ? parts.direction : Vector {};
-        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-            if (!(plate.bonded || plate.opening[i] <= 0.0)) continue;
-            const auto& nodes = s.surface.nodes[plate.facets[i]];
+        for (int i = 0; i < plate_points(plate); ++i) {
+            if (!(plate.bonded || plate.points[i].opening <= 0.0)) continue;
+            const auto& nodes = s.surface.nodes[plate.points[i].facet];
             Vector place;
             for (int k = 0; k < 3; ++k)
                 place =
@@ -142,7 +142,7 @@ SolidPartState pressed_part_state(
     drive.length = 0.0;  // what loads stays
     for (const auto& [plate, pressure] : pressures) {
         check_not_negative("pressure on a plate", pressure, "Pa");
-        drive.loads.push_back({ plate, pressure * s.plates.at(plate).width });
+        drive.loads.push_back({ plate, pressure * s.plates.at(plate).face_area });
     }
     const SolidField field = elastic_field(s, drive);
     SolidPartState found { s };

@@ -45,12 +45,6 @@ double first_of_pairs(const Array<double>& pairs)
     return sum;
 }
 
-/// Energy of friction of a plate's contacts [J].
-double friction_of(const Plate& plate)
-{
-    return std::accumulate(plate.rubbed.begin(), plate.rubbed.end(), plate.friction_energy);
-}
-
 /// Stored in grains and contacts [J].
 template <class State> double stored_energy(const State& s)
 {
@@ -106,8 +100,8 @@ double largest_unbalanced(const BondedState& s, const std::vector<int>& grain_of
     for (const Plate& p : s.plates) {
         if (!(p.unbalanced > 0.0)) continue;
         std::set<int> grains;
-        for (int facet : p.facets)
-            grains.insert(grain_of[facet]);
+        for (const PlatePoint& point : p.points)
+            grains.insert(grain_of[point.facet]);
         largest = std::max(largest, per_grain(p.unbalanced, grains));
     }
     for (const NodeSet& set : s.node_sets) {
@@ -225,7 +219,7 @@ template <class State> Dissipation dissipation(const State& s)
     d.friction = contact.friction + s.ledger.removed_friction;
     d.boundary_work = first_of_pairs(s.ledger.prescribed_work) + s.ledger.pressure_work;
     for (const Plate& p : s.plates) {
-        d.friction += friction_of(p);
+        d.friction += p.friction_energy;
         d.boundary_work += p.boundary_work;
     }
     for (const NodeSet& set : s.node_sets)
@@ -284,8 +278,11 @@ void reset_energy_balance(Assembly& a)
     a.ledger.prescribed_work[0] = start;
     a.ledger.pressure_work = a.ledger.removed_damage = a.ledger.removed_friction = 0.0;
     a.ledger.erased = 0.0;
-    for (Plate& p : a.plates)
+    for (Plate& p : a.plates) {
         p.boundary_work = p.damping_work = p.drag_work = p.friction_energy = 0.0;
+        for (PlatePoint& point : p.points)
+            point.friction_energy = 0.0;
+    }
     for (NodeSet& set : a.node_sets)
         set.work = set.float_work = set.damping_work = set.drag_work = 0.0;
     if (a.step == 0) {

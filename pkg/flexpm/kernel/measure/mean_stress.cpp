@@ -75,8 +75,8 @@ void add_faces(const SolidState& s, Virial& total)
 double overlap(const Plate& plate)
 {
     double sum = 0.0;
-    for (std::size_t i = 0; i < plate.opening.size(); ++i)
-        sum += plate.area[i] * std::max(-plate.opening[i], 0.0);
+    for (const PlatePoint& point : plate.points)
+        sum += point.area * std::max(-point.opening, 0.0);
     return sum;
 }
 

@@ -203,7 +203,7 @@ template <class State> bool lies_on(const State& state, const NodeSet& set, int 
 bool lies_down(const Plate& plate, int point)
 {
     const double turned = dot(point_arm(plate, point), plate.turn);
-    return plate.area[point] > 0.0 && !(plate.gap[point] - turned > 0.0);
+    return plate.points[point].area > 0.0 && !(plate.points[point].gap - turned > 0.0);
 }
 
 /// @throws std::invalid_argument  if a node of the set lies on the face of the plate
@@ -211,7 +211,7 @@ template <class State>
 void require_apart(const State& state, const NodeSet& set, const Plate& plate)
 {
     for (int i = 0; i < plate_points(plate); ++i) {
-        const int facet = plate.facets[i / plate.points];
+        const int facet = plate.points[i].facet;
         if (!lies_down(plate, i) || !lies_on(state, set, facet)) continue;
         refuse("node of a set", bonded_place(state.grains, corners_of(state, facet)[0]),
             "lies on a plate, must not; take another region or another place");

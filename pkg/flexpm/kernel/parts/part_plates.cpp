@@ -65,11 +65,12 @@ double distance_to(const FacetPlace& facet, Point place)
 
 /// @throws std::invalid_argument  unless a support lies on the outline, with half of its length or
 ///         more, and ends on it
-void require_on_outline(const Assembly& a, const Plate& p, const Patch& patch)
+void require_on_outline(
+    const Assembly& a, const Plate& p, const std::vector<int>& facets, const Patch& patch)
 {
     const Point tangent = tangent_of(in_plane(p.normal));
     double off = std::numeric_limits<double>::infinity(), length = 0.0, first = off, last = -off;
-    for (int e : p.facets) {
+    for (int e : facets) {
         const FacetPlace facet = facet_place(a, e);
         const double distance = distance_to(facet, patch.place);
         if (distance < off) length = facet.length();
@@ -100,7 +101,7 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
     check_finite("place of a support", patch.place.x + patch.place.y, "m");
     const bool given = patch.normal.x != 0.0 || patch.normal.y != 0.0;
     Plate p = plate_of(a, given ? unit(patch.normal) : normal_near(a, patch.place), contact);
-    p.points = 2;  // the ends of edges, those of rigid grains, too
+    std::vector<int> facets;
     std::vector<CoveredFacet> covered;
     for (int e = 0; e < a.facets.count; ++e) {
         const FacetPlace facet = facet_place(a, e);
@@ -109,7 +110,7 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
         const CoveredFacet part = covered_part(facet, in_plane(p.normal), patch);
         if (part.last > part.first && std::fabs(part.gap) < patch.length) {
             covered.push_back(part);
-            p.facets.push_back(e);
+            facets.push_back(e);
         }
     }
     if (covered.empty()) {
@@ -119,7 +120,7 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
     p.position = patch.place;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < covered.size(); ++i) {
-        const FacetPlace facet = facet_place(a, p.facets[i]);
+        const FacetPlace facet = facet_place(a, facets[i]);
         p.width +=
             (covered[i].last - covered[i].first) * facet.length() * along(p.normal, facet.normal());
         for (const Point x : { facet.start, facet.end }) {
@@ -127,15 +128,15 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
             nearest = std::min(nearest, along(p.normal, x));
         }
     }
-    lay(a, p);
+    lay_on_edges(a, p, facets, TouchAt::ends);  // of edges of rigid grains, too
     for (std::size_t i = 0; i < covered.size(); ++i) {
         const double part = covered[i].last - covered[i].first;
         const double middle = 0.5 * (covered[i].first + covered[i].last);
-        const double area = a.area_of(part * facet_place(a, p.facets[i]).length());
-        p.area[2 * i] = (1.0 - middle) * area;
-        p.area[2 * i + 1] = middle * area;
+        const double area = a.area_of(part * facet_place(a, facets[i]).length());
+        p.points[2 * i].area = (1.0 - middle) * area;
+        p.points[2 * i + 1].area = middle * area;
     }
-    require_on_outline(a, p, patch);
+    require_on_outline(a, p, facets, patch);
     centre_position(a, p);
     seat(a, p);
     return p;
@@ -162,7 +163,6 @@ Plate jaw_plate(const Assembly& a, const Jaw& jaw, const PlateContact& contact)
 {
     check(jaw, contact);
     Plate p = plate_of(a, unit(jaw.centre - jaw.place), contact);
-    p.points = 2;
     p.position = jaw.place;
     p.disc_radius = norm(jaw.centre - jaw.place);
     p.jaw_radius = std::max(jaw.radius, p.disc_radius);
@@ -180,30 +180,28 @@ Plate jaw_plate(const Assembly& a, const Jaw& jaw, const PlateContact& contact)
         const double first = std::clamp(std::min(one, other), 0.0, 1.0);
         const double last = std::clamp(std::max(one, other), 0.0, 1.0);
         if (!(last > first)) continue;
-        p.facets.push_back(e);
         p.width += (last - first) * facet.length() * along(inwards, facet.normal());
         const double middle = 0.5 * (first + last);
         const double area = a.area_of((last - first) * facet.length());
-        p.area.insert(p.area.end(), { (1.0 - middle) * area, middle * area });
-        for (const Point x : { facet.start, facet.end }) {
-            const double angle = angle_of(x);
+        for (double weight : weights_of(TouchAt::ends)) {
+            PlatePoint point = point_on_edge(p, e, weight);
+            point.area = (weight == 0.0 ? 1.0 - middle : middle) * area;
+            const double angle = angle_of(weight == 0.0 ? facet.start : facet.end);
             // from the disc's rim, as the jaw's centre sees it, to the arc
             const Point from =
                 p.disc_radius * (std::sin(angle) * tangent - std::cos(angle) * inwards)
                 - apart * inwards;
-            p.gap.push_back(p.jaw_radius - norm(from));
-            const Point normal = unit(-1.0 * from);
-            p.normals.insert(p.normals.end(), { normal.x, normal.y });
+            point.gap = p.jaw_radius - norm(from);
+            point.normal = unit(-1.0 * from);
+            p.points.push_back(point);
         }
     }
-    if (p.facets.empty())
+    if (p.points.empty())
         refuse("edges at a jaw", 0.0, "", "must be at least 1; lay it on the rim of the disc");
     // the rim has a node near the middle, not on it
-    const double nearest = *std::min_element(p.gap.begin(), p.gap.end());
-    for (double& gap : p.gap)
-        gap = apart > 1e-9 * p.disc_radius ? gap - nearest : 0.0;
-    p.opening = p.gap;
-    p.shear_force.assign(p.gap.size(), 0.0);
+    const double nearest = least_gap(p);
+    for (PlatePoint& point : p.points)
+        point.gap = point.opening = apart > 1e-9 * p.disc_radius ? point.gap - nearest : 0.0;
     return p;
 }
 

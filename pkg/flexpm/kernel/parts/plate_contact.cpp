@@ -12,7 +12,7 @@ namespace flexpm {
 
 namespace {
 
-void add_force(Facets& facets, const PlatePoint& p, Vector force)
+void add_force(Facets& facets, const EdgePoint& p, Vector force)
 {
     const Point on_grain = in_plane(force);
     const auto parts = facet_parts(p.weight);
@@ -24,11 +24,15 @@ void add_force(Facets& facets, const PlatePoint& p, Vector force)
 
 /// Shear force after a slip of the grain along the plate [m], within friction; what rubs off counts
 /// as energy of friction.
-double shear_force(Plate& plate, const PlatePoint& p, int index, double normal_force, double slip)
+double shear_force(
+    Plate& plate, PlatePoint& point, double stiffness, double normal_force, double slip)
 {
-    const double old = plate.shear_force[index], trial = old - p.shear_stiffness * slip;
+    const double old = point.shear.x, trial = old - stiffness * slip;
     const double next = within_friction(plate, normal_force, trial);
-    plate.friction_energy += 0.5 * (old + next) * (trial - next) / p.shear_stiffness;
+    const double rubs = 0.5 * (old + next) * (trial - next) / stiffness;
+    plate.friction_energy += rubs;
+    point.friction_energy += rubs;
+    point.slip = point.slip + (next - trial) / stiffness * tangent_of(in_plane(point.normal));
     return next;
 }
 
@@ -39,24 +43,22 @@ Vector touch(Assembly& a, Plate& plate, double give, double dt)
 {
     Vector total;
     for (int i = 0; i < plate_points(plate); ++i) {
-        const PlatePoint p = plate_point(plate, i);
-        const Vector along = point_normal(plate, i), tangent = tangent_of(in_plane(along));
+        const EdgePoint p = edge_point(plate, i);
+        PlatePoint& point = plate.points[i];
+        const Vector along = point.normal, tangent = tangent_of(in_plane(along));
         const auto nodes = a.facets.nodes(p.facet);
         const Point u = vector_on_edge(a.grains.displacement, nodes, p.weight);
         const Point v = vector_on_edge(a.grains.velocity, nodes, p.weight);
         const Vector way = u + dt * v - plate.displacement;
-        double gap = plate.gap[i] + dot(along, way);
-        if (plate.seated) gap -= point_arm(plate, i).z * plate.turn.z;
-        plate.opening[i] = gap;
-        const double normal = normal_force(plate, i, gap);
+        point.opening = gap_after(plate, i, way);
+        const double normal = point_push(plate, i);
         if (plate.friction > 0.0) {
             double slip = dot(tangent, dt * (v - plate.velocity));
             // a straight plate gives square to its face
-            if (!plate.normals.empty()) slip += give * dot(tangent, plate.normal);
-            plate.shear_force[i] = shear_force(plate, p, i, normal, slip);
+            if (is_jaw(plate)) slip += give * dot(tangent, plate.normal);
+            point.shear.x = shear_force(plate, point, p.shear_stiffness, normal, slip);
         }
-        const double shear = plate.shear_force[i];
-        const Vector force = normal * along + shear * tangent;
+        const Vector force = normal * along + point.shear.x * tangent;
         add_force(a.facets, p, force);
         total = total + force;
     }
@@ -84,18 +86,19 @@ void update_plate(Assembly& a, std::size_t number, double dt, double damping)
 
 }  // namespace
 
-PlatePoint plate_point(const Plate& p, int index)
+EdgePoint edge_point(const Plate& p, int index)
 {
-    return { p.facets[index / p.points], plate_weight(p, index % p.points),
-        point_stiffness(p, index), sliding_stiffness(p, index) };
+    const PlatePoint& point = p.points[index];
+    return { point.facet, point.weights[1], point_stiffness(p, index),
+        sliding_stiffness(p, index) };
 }
 
 void update_plates(Assembly& a, double dt, double damping)
 {
     for (const Plate& plate : a.plates) {
-        for (int facet : plate.facets) {
+        for (const PlatePoint& point : plate.points) {
             for (int n = 0; n < facet_nodes; ++n) {
-                const int at = Facets::force_index(facet, FacetRow::of_plates, n);
+                const int at = Facets::force_index(point.facet, FacetRow::of_plates, n);
                 set_vector(a.facets.forces, at, {});
             }
         }
@@ -109,11 +112,11 @@ Point middle_of_face(const Assembly& a, const Plate& p)
     Point sum;
     double area = 0.0;
     for (int i = 0; i < plate_points(p); ++i) {
-        const PlatePoint point = plate_point(p, i);
+        const EdgePoint point = edge_point(p, i);
         const Point x =
             vector_on_edge(a.grains.reference, a.facets.nodes(point.facet), point.weight);
-        sum = sum + p.area[i] * x;
-        area += p.area[i];
+        sum = sum + p.points[i].area * x;
+        area += p.points[i].area;
     }
     return area > 0.0 ? (1.0 / area) * sum : in_plane(p.position);
 }
@@ -125,13 +128,13 @@ double contact_width(const Assembly& a, int plate)
     double first = 0.0, last = 0.0;
     bool any = false;
     for (int i = 0; i < plate_points(p); ++i) {
-        if (p.opening[i] >= 0.0) continue;
-        const PlatePoint point = plate_point(p, i);
+        if (p.points[i].opening >= 0.0) continue;
+        const EdgePoint point = edge_point(p, i);
         const auto nodes = a.facets.nodes(point.facet);
         const Point x = vector_on_edge(a.grains.reference, nodes, point.weight)
             + vector_on_edge(a.grains.displacement, nodes, point.weight);
         const double place = dot(tangent, x);
-        const double half = a.length_of(0.5 * p.area[i]);
+        const double half = a.length_of(0.5 * p.points[i].area);
         first = any ? std::min(first, place - half) : place - half;
         last = any ? std::max(last, place + half) : place + half;
         any = true;
@@ -150,12 +153,12 @@ double contact_angle(const Assembly& a, int plate)
     double first = 0.0, last = 0.0;
     bool any = false;
     for (int i = 0; i < plate_points(p); ++i) {
-        if (p.opening[i] >= 0.0 || p.area[i] == 0.0) continue;
-        const PlatePoint point = plate_point(p, i);
+        if (p.points[i].opening >= 0.0 || p.points[i].area == 0.0) continue;
+        const EdgePoint point = edge_point(p, i);
         const Vector arm =
             vector_on_edge(a.grains.reference, a.facets.nodes(point.facet), point.weight) - centre;
         const double place = std::atan2(dot(tangent, arm), -dot(p.normal, arm));
-        const double half = a.length_of(0.5 * p.area[i]) / p.disc_radius;
+        const double half = a.length_of(0.5 * p.points[i].area) / p.disc_radius;
         const double from = std::max(place - half, -end), to = std::min(place + half, end);
         first = any ? std::min(first, from) : from;
         last = any ? std::max(last, to) : to;

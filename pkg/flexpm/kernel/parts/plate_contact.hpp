@@ -16,14 +16,14 @@ namespace flexpm {
 /// ones. Called by step() between contacts and grains.
 void update_plates(Assembly& a, double dt, double damping);
 
-/// One-point contact of a plate, for sums.
-struct PlatePoint {
+/// Point of a plate on an edge, for sums.
+struct EdgePoint {
     int facet;
     double weight;           ///< of the facet's second node, see facet_parts() [-]
     double stiffness;        ///< normal [N/m]
     double shear_stiffness;  ///< [N/m], 0 if smooth
 };
-PlatePoint plate_point(const Plate& p, int index);
+EdgePoint edge_point(const Plate& p, int index);
 
 /// Middle of what a plate lies on, when bonded [m].
 Point middle_of_face(const Assembly& a, const Plate& p);

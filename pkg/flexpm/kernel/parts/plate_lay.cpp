@@ -21,38 +21,50 @@ namespace {
 /// either side of its seat. A plate that is bonded lies on all of its points as it is.
 void lay_down(Plate& p)
 {
-    const std::size_t count = p.arms.size();
     double ahead = std::numeric_limits<double>::infinity();  // way of the seat until it lies
-    for (std::size_t i = 0; i < count; ++i) {
-        if (p.arms[i] == 0.0) ahead = std::min(ahead, p.gap[i]);
-        for (std::size_t j = 0; j < count && p.arms[i] < 0.0; ++j) {
-            if (!(p.arms[j] > 0.0)) continue;
-            const double part = p.arms[j] / (p.arms[j] - p.arms[i]);
-            ahead = std::min(ahead, part * p.gap[i] + (1.0 - part) * p.gap[j]);
+    for (const PlatePoint& one : p.points) {
+        const double arm = one.arm.z;
+        if (arm == 0.0) ahead = std::min(ahead, one.gap);
+        if (!(arm < 0.0)) continue;
+        for (const PlatePoint& other : p.points) {
+            if (!(other.arm.z > 0.0)) continue;
+            const double part = other.arm.z / (other.arm.z - arm);
+            ahead = std::min(ahead, part * one.gap + (1.0 - part) * other.gap);
         }
     }
     double least = -std::numeric_limits<double>::infinity(), most = -least;
-    for (std::size_t i = 0; i < count; ++i) {
-        p.gap[i] -= ahead;
-        if (p.arms[i] < 0.0) least = std::max(least, p.gap[i] / p.arms[i]);
-        if (p.arms[i] > 0.0) most = std::min(most, p.gap[i] / p.arms[i]);
+    for (PlatePoint& point : p.points) {
+        const double arm = point.arm.z;
+        point.gap -= ahead;
+        if (arm < 0.0) least = std::max(least, point.gap / arm);
+        if (arm > 0.0) most = std::min(most, point.gap / arm);
     }
     p.turn.z = std::max(least, std::min(most, 0.0));
     p.position = p.position + ahead * p.normal;
-    for (std::size_t i = 0; i < count; ++i)
-        p.opening[i] = p.gap[i] - p.arms[i] * p.turn.z;
+    for (PlatePoint& point : p.points)
+        point.opening = point.gap - point.arm.z * p.turn.z;
+}
+
+/// Index of the first point behind those of one facet.
+std::size_t end_of_facet(const Plate& p, std::size_t first)
+{
+    std::size_t end = first;
+    while (end < p.points.size() && p.points[end].facet == p.points[first].facet)
+        ++end;
+    return end;
 }
 
 /// Part of its facet that a plate takes, its first and last place, 0 at the facet's start.
-std::pair<double, double> taken_part(const Assembly& a, const Plate& p, std::size_t facet)
+/// @param first  index of the facet's first point
+std::pair<double, double> taken_part(const Assembly& a, const Plate& p, std::size_t first)
 {
+    const double whole = facet_area(a, p.points[first].facet);
     double area = 0.0, middle = 0.0;
-    for (int i = 0; i < p.points; ++i) {
-        const double part = p.area[facet * p.points + i];
-        area += part;
-        middle += plate_weight(p, i) * part / facet_area(a, p.facets[facet]);
+    for (std::size_t i = first; i < end_of_facet(p, first); ++i) {
+        area += p.points[i].area;
+        middle += p.points[i].weights[1] * p.points[i].area / whole;
     }
-    const double taken = area / facet_area(a, p.facets[facet]);
+    const double taken = area / whole;
     middle = taken > 0.0 ? middle / taken : 0.0;
     return { middle - 0.5 * taken, middle + 0.5 * taken };
 }
@@ -64,11 +76,11 @@ constexpr double lain_on = 1e-9;
 bool overlap(const Assembly& a, const Plate& p, const Plate& q)
 {
     if (p.width == 0.0 || q.width == 0.0) return false;
-    for (std::size_t e = 0; e < p.facets.size(); ++e) {
-        const auto other =
-            std::find(q.facets.begin(), q.facets.end(), p.facets[e]) - q.facets.begin();
-        if (other == static_cast<std::ptrdiff_t>(q.facets.size())) continue;
-        const auto one = taken_part(a, p, e), two = taken_part(a, q, other);
+    for (std::size_t first = 0; first < p.points.size(); first = end_of_facet(p, first)) {
+        const auto other = std::find_if(q.points.begin(), q.points.end(),
+            [&](const PlatePoint& there) { return there.facet == p.points[first].facet; });
+        if (other == q.points.end()) continue;
+        const auto one = taken_part(a, p, first), two = taken_part(a, q, other - q.points.begin());
         if (std::min(one.second, two.second) - std::max(one.first, two.first) > lain_on)
             return true;
     }
@@ -100,26 +112,36 @@ Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact)
     return p;
 }
 
-int points_on_facet(const Assembly& a, const Plate& p)
+TouchAt points_on(const Assembly& a, const std::vector<int>& facets)
 {
-    return a.grains.is_rigid(a.facets.grain[p.facets.front()]) ? 1 : 2;
+    return a.grains.is_rigid(a.facets.grain[facets.front()]) ? TouchAt::middle : TouchAt::ends;
 }
 
-void lay(const Assembly& a, Plate& p)
+PlatePoint point_on_edge(const Plate& p, int facet, double weight)
 {
-    for (int e : p.facets) {
+    PlatePoint point;
+    point.facet = facet;
+    point.weights = { 1.0 - weight, weight, 0.0 };
+    point.normal = p.normal;
+    return point;
+}
+
+void lay_on_edges(const Assembly& a, Plate& p, const std::vector<int>& facets, TouchAt points)
+{
+    const bool whole = points == TouchAt::middle;
+    for (int e : facets) {
         const FacetPlace facet = facet_place(a, e);
-        for (int i = 0; i < p.points; ++i) {
-            const Point x = facet.at(plate_weight(p, i));
+        for (double weight : weights_of(points)) {
+            PlatePoint point = point_on_edge(p, e, weight);
             // a bonded point is unloaded where it is; a point of the face itself has no gap
-            const double gap = along(p.normal, x) - along(p.normal, p.position);
+            const double gap = along(p.normal, facet.at(weight)) - along(p.normal, p.position);
             const bool on_face = p.bonded || std::fabs(gap) < 1e-9 * facet.length();
-            p.gap.push_back(on_face ? 0.0 : gap);
-            p.area.push_back(facet_area(a, e) / p.points);
+            point.whole = whole;
+            point.gap = point.opening = on_face ? 0.0 : gap;
+            point.area = facet_area(a, e) / (whole ? 1 : 2);
+            p.points.push_back(point);
         }
     }
-    p.opening = p.gap;
-    p.shear_force.assign(p.gap.size(), 0.0);
 }
 
 void centre_position(const Assembly& a, Plate& p)
@@ -134,14 +156,15 @@ void seat(const Assembly& a, Plate& p)
     if (!p.seated) return;
     const Point middle = middle_of_face(a, p);
     for (int i = 0; i < plate_points(p); ++i) {
-        const PlatePoint point = plate_point(p, i);
+        const EdgePoint point = edge_point(p, i);
         const Point x =
             vector_on_edge(a.grains.reference, a.facets.nodes(point.facet), point.weight);
         const double arm = cross(x - middle, in_plane(p.normal));
         // a point at the seat itself has none, or round-off would turn the plate out of its way
-        p.arms.push_back(std::fabs(arm) < 1e-9 * p.width ? 0.0 : arm);
+        p.points[i].arm.z = std::fabs(arm) < 1e-9 * p.width ? 0.0 : arm;
     }
-    if (std::all_of(p.arms.begin(), p.arms.end(), [](double arm) { return arm == 0.0; }))
+    if (std::all_of(p.points.begin(), p.points.end(),
+            [](const PlatePoint& point) { return point.arm.z == 0.0; }))
         refuse("points of a seated plate", plate_points(p), "", "must be at least 2, apart");
     lay_down(p);
 }
@@ -168,6 +191,7 @@ std::vector<int> add_plates(Assembly& a, const std::vector<Plate>& plates)
     for (const Plate& p : plates) {
         numbers.push_back(static_cast<int>(a.plates.size()));
         a.plates.push_back(p);
+        a.plates.back().face_area = a.area_of(p.width);
     }
     return numbers;
 }

@@ -30,11 +30,26 @@ Point unit(Point normal);
 /// @throws std::invalid_argument  if a value is out of range
 Plate plate_of(const Assembly& a, Point normal, const PlateContact& contact);
 
-/// Points that touch a plate on each facet: grains of either kind, all of one kind.
-int points_on_facet(const Assembly& a, const Plate& p);
+/// Where a plate may touch an edge.
+enum class TouchAt { middle, ends };
 
-/// Gaps and tributary areas of the plate's points; the state at the reference.
-void lay(const Assembly& a, Plate& p);
+/// Places of these along an edge, 0 to 1.
+inline std::vector<double> weights_of(TouchAt points)
+{
+    return points == TouchAt::middle ? std::vector<double> { 0.5 }
+                                     : std::vector<double> { 0.0, 1.0 };
+}
+
+/// Points by the grains of some edges, which all deform or all are rigid.
+TouchAt points_on(const Assembly& a, const std::vector<int>& facets);
+
+/// A point of a plate on an edge, without gap and area.
+/// @param weight  of the edge's second node [-]
+PlatePoint point_on_edge(const Plate& p, int facet, double weight);
+
+/// Lay the points of a plate on edges, with their gaps and tributary areas; the state at the
+/// reference.
+void lay_on_edges(const Assembly& a, Plate& p, const std::vector<int>& facets, TouchAt points);
 
 /// Move the position of a plate along its face to where its load acts: the mean of its points by
 /// area.

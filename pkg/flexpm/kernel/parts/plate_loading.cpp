@@ -4,6 +4,7 @@
 #include <flexpm/kernel/assembly/loose_groups.hpp>
 #include <flexpm/kernel/core/central_difference.hpp>
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/parts/plate_points.hpp>
 
 #include <string>
 
@@ -53,8 +54,9 @@ void set_velocity(BondedState& state, int plate, Vector velocity)
 void free_plate(SolidState& s, int plate)
 {
     Plate& p = plate_at(s, plate);
-    if (!(p.width > 0.0 && p.normals.empty()))
-        refuse("area of a plate", p.width, "m^2", "must be above 0; lay one on a part of the side");
+    if (!(p.face_area > 0.0) || is_jaw(p))
+        refuse("area of a plate", p.face_area, "m^2",
+            "must be above 0; lay one on a part of the side");
     if (p.loaded) return;
     p.loaded = true;
     p.load = dot(p.normal, p.force);  // it stays where it is until a pressure acts
@@ -78,7 +80,7 @@ void press(SolidState& s, int plate, double pressure)
         refuse("mass of a plate", p.mass, "kg",
             "must be above 0; let a load move it, and scale the masses");
     }
-    p.load = pressure * p.width;
+    p.load = pressure * p.face_area;
 }
 
 void set_machine(BondedState& state, int plate, double stiffness)

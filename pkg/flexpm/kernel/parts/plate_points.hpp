@@ -1,59 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Points of plates: what a plate says of them itself, in 2D and in 3D alike. How many
-/// values a vector of a point has follows from their number; what is in the plane has no third
-/// component. SI units; forces are those on the specimen.
+/// @file  Points of plates: what a plate says of them itself, in 2D and in 3D alike. SI units;
+/// forces are those on the specimen.
 #pragma once
 
 #include <flexpm/kernel/assembly/parts.hpp>
 
 #include <array>
-#include <cstddef>
 #include <vector>
 
 namespace flexpm {
 
 /// Number of the points of a plate, those that do not touch included.
-inline int plate_points(const Plate& p) { return static_cast<int>(p.facets.size()) * p.points; }
-
-/// Place of point `point` of its facet along that, 0 to 1.
-inline double plate_weight(const Plate& p, int point) { return p.points == 1 ? 0.5 : point; }
+inline int plate_points(const Plate& p) { return static_cast<int>(p.points.size()); }
 
 /// Share of a corner of its triangle in a point.
 inline double corner_share(const Plate& p, int index, int corner)
 {
-    return p.shares.empty() ? 1.0 / 3.0 : p.shares[3 * static_cast<std::size_t>(index) + corner];
+    return p.points[index].weights[corner];
 }
 
-/// Whether values are vectors of 3D of the points.
-inline bool has_three_axes(const Plate& p, const std::vector<double>& values)
-{
-    return values.size() == 3 * p.gap.size();
-}
-
-/// Vector of a point in 3D.
-inline Vector three_axes(const std::vector<double>& values, int index)
-{
-    const std::size_t i = 3 * static_cast<std::size_t>(index);
-    return { values[i], values[i + 1], values[i + 2] };
-}
+inline bool is_jaw(const Plate& p) { return p.jaw_radius > 0.0; }
 
 /// Into the specimen at a point, a unit vector; of a jaw the point's own.
-inline Vector point_normal(const Plate& p, int index)
-{
-    if (p.normals.empty()) return p.normal;
-    if (has_three_axes(p, p.normals)) return three_axes(p.normals, index);
-    const std::size_t i = 2 * static_cast<std::size_t>(index);
-    return { p.normals[i], p.normals[i + 1], 0.0 };
-}
+inline Vector point_normal(const Plate& p, int index) { return p.points[index].normal; }
+
+/// Axes of the face at a point with this normal: in 2D the first lies in the plane, the normal
+/// turned counter-clockwise.
+std::array<Vector, 2> face_axes(Vector normal);
 
 /// What the face of a plate with a seat goes along its normal at a point by each component of a
 /// turn [m], whether the seat is held or not; nought without a seat.
-inline Vector seat_arm(const Plate& p, int index)
-{
-    if (p.arms.empty()) return {};
-    return has_three_axes(p, p.arms) ? three_axes(p.arms, index)
-                                     : Vector { 0.0, 0.0, p.arms[index] };
-}
+inline Vector seat_arm(const Plate& p, int index) { return p.points[index].arm; }
 
 /// The same of a plate that turns freely; nought of others.
 inline Vector point_arm(const Plate& p, int index)
@@ -61,13 +38,20 @@ inline Vector point_arm(const Plate& p, int index)
     return p.seated ? seat_arm(p, index) : Vector {};
 }
 
+/// Gap of a point at a displacement from its reference, relative to its plate [m].
+inline double gap_after(const Plate& p, int index, Vector way)
+{
+    const PlatePoint& point = p.points[index];
+    return point.gap + dot(point.normal, way) - dot(point_arm(p, index), p.turn);
+}
+
 /// Stiffness of a point along its normal [N/m].
-inline double point_stiffness(const Plate& p, int index) { return p.stiffness * p.area[index]; }
+inline double point_stiffness(const Plate& p, int i) { return p.stiffness * p.points[i].area; }
 
 /// The same along the face; 0: it is smooth [N/m].
 inline double sliding_stiffness(const Plate& p, int index)
 {
-    return p.friction > 0.0 ? p.shear_stiffness * p.area[index] : 0.0;
+    return p.friction > 0.0 ? p.shear_stiffness * p.points[index].area : 0.0;
 }
 
 /// Force of a point along its normal at a gap [N].
@@ -79,8 +63,11 @@ inline double normal_force(const Plate& p, int index, double gap)
 /// The same at the last step.
 inline double point_push(const Plate& p, int index)
 {
-    return normal_force(p, index, p.opening[index]);
+    return normal_force(p, index, p.points[index].opening);
 }
+
+/// Least gap of the points of a plate at the reference; infinite without any [m].
+double least_gap(const Plate& p);
 
 /// Force of a point along the face at the last step [N].
 Vector point_shear(const Plate& p, int index);

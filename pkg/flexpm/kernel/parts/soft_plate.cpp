@@ -15,14 +15,14 @@ namespace {
 /// Way of a point from its reference, less that of the plate, at the end of a step [m].
 Vector way_after(const Assembly& a, const Plate& plate, int index, double dt)
 {
-    const PlatePoint p = plate_point(plate, index);
+    const EdgePoint p = edge_point(plate, index);
     const auto nodes = a.facets.nodes(p.facet);
     return vector_on_edge(a.grains.displacement, nodes, p.weight)
         + dt * vector_on_edge(a.grains.velocity, nodes, p.weight) - plate.displacement;
 }
 Vector way_after(const SolidState& s, const Plate& plate, int index, double dt)
 {
-    const int triangle = plate.facets[index], grain = s.surface.grain[triangle];
+    const int triangle = plate.points[index].facet, grain = s.surface.grain[triangle];
     Vector way = -1.0 * plate.displacement;
     for (int k = 0; k < 3; ++k) {
         const int node = s.surface.nodes[triangle][k];
@@ -44,9 +44,7 @@ template <class State> SoftPlate plate_after(const State& state, const Plate& pl
     SoftPlate found { gives_way(plate) ? plate.machine_stiffness : 0.0, plate.machine_give,
         plate.bonded, {} };
     for (int i = 0; i < plate_points(plate); ++i) {
-        const double gap = plate.gap[i]
-            + dot(point_normal(plate, i), way_after(state, plate, i, dt))
-            - dot(point_arm(plate, i), plate.turn);
+        const double gap = gap_after(plate, i, way_after(state, plate, i, dt));
         found.contacts.push_back({ gap, point_stiffness(plate, i), opens(plate, i) });
     }
     return found;
@@ -99,14 +97,14 @@ std::vector<EdgeOfJaw> points_of_jaw(const Assembly& a, const Plate& plate, doub
 {
     std::vector<EdgeOfJaw> points;
     for (int i = 0; i < plate_points(plate); ++i) {
-        const PlatePoint p = plate_point(plate, i);
+        const EdgePoint p = edge_point(plate, i);
         const auto nodes = a.facets.nodes(p.facet);
         const Vector v = vector_on_edge(a.grains.velocity, nodes, p.weight);
         const Vector way =
             vector_on_edge(a.grains.displacement, nodes, p.weight) + dt * v - plate.displacement;
         const Vector along = point_normal(plate, i), across = tangent_of(in_plane(along));
-        points.push_back({ i, p.shear_stiffness, plate.gap[i] + dot(along, way),
-            dt * dot(across, v - plate.velocity), plate.shear_force[i], dot(plate.normal, along),
+        points.push_back({ i, p.shear_stiffness, plate.points[i].gap + dot(along, way),
+            dt * dot(across, v - plate.velocity), plate.points[i].shear.x, dot(plate.normal, along),
             dot(plate.normal, across) });
     }
     return points;
@@ -118,8 +116,8 @@ std::vector<TriangleOfJaw> points_of_jaw(const SolidState& s, const Plate& plate
     for (int i = 0; i < plate_points(plate); ++i) {
         const Vector way = way_after(s, plate, i, dt), along = point_normal(plate, i);
         const double gap = dot(along, way), give = dot(along, plate.normal);
-        points.push_back({ i, sliding_stiffness(plate, i), plate.gap[i] + gap, give,
-            way - gap * along - three_axes(plate.slid, i), plate.normal - give * along });
+        points.push_back({ i, sliding_stiffness(plate, i), plate.points[i].gap + gap, give,
+            way - gap * along - plate.points[i].slip, plate.normal - give * along });
     }
     return points;
 }
@@ -181,7 +179,7 @@ private:
 };
 
 /// Whether friction has a part in the load of a plate.
-bool is_rubbing_jaw(const Plate& plate) { return !plate.normals.empty() && plate.friction > 0.0; }
+bool is_rubbing_jaw(const Plate& plate) { return is_jaw(plate) && plate.friction > 0.0; }
 
 /// Motion of a soft plate at the end of a step: a give and turns.
 template <class State> Vector motion_of(const State& state, const Plate& plate, double dt)
@@ -230,11 +228,11 @@ PlateRates rates_of(const SolidState& s, const Plate& plate, const Array<double>
     PlateStiffness stiffness;
     if (gives_way(plate)) stiffness.add_machine(plate.machine_stiffness);
     Vector growth;
-    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-        if (!(plate.bonded || plate.opening[i] < 0.0)) continue;
+    for (int i = 0; i < plate_points(plate); ++i) {
+        if (!(plate.bonded || plate.points[i].opening < 0.0)) continue;
         Vector way = plate.velocity;
         for (int k = 0; k < 3; ++k) {
-            const int node = s.surface.nodes[plate.facets[i]][k];
+            const int node = s.surface.nodes[plate.points[i].facet][k];
             way = way - corner_share(plate, i, k) * space_vector(velocity, node);
         }
         const double spring = point_stiffness(plate, i);

@@ -53,18 +53,17 @@ Plate touching_plate(const SolidState& s, SolidSide side)
         const Vector outwards = area_vector(s, t);
         if (faces(p, outwards)) add_contact(s, p, t);
     }
-    if (p.facets.empty())
+    if (p.points.empty())
         refuse("add_disc_plates: triangles before side " + std::to_string(p.side), 0.0, "",
             "must be above 0; give a disc");
-    for (int t : p.facets)
-        p.gap.push_back(dot(p.normal, middle(s.grains.reference, s.surface.nodes[t])));
-    const auto first = std::min_element(p.gap.begin(), p.gap.end());
-    const double nearest = *first;
-    p.position = middle(s.grains.reference, s.surface.nodes[p.facets[first - p.gap.begin()]]);
+    for (PlatePoint& point : p.points)
+        point.gap = dot(p.normal, middle(s.grains.reference, s.surface.nodes[point.facet]));
+    const auto first = std::min_element(p.points.begin(), p.points.end(),
+        [](const PlatePoint& one, const PlatePoint& other) { return one.gap < other.gap; });
+    const double nearest = first->gap;
+    p.position = middle(s.grains.reference, s.surface.nodes[first->facet]);
     centre_position(s, p);
-    for (double& gap : p.gap)
-        gap = gap - nearest < no_gap * std::fabs(nearest) ? 0.0 : gap - nearest;
-    p.opening = p.gap;
+    set_gaps(p, nearest, no_gap * std::fabs(nearest));
     return p;
 }
 
@@ -79,10 +78,10 @@ void hold(SolidState& s, int node, int axis)
 int keep_from_rolling(SolidState& s, const Plate& p)
 {
     int held = -1;
-    for (std::size_t i = 0; i < p.facets.size(); ++i) {
-        if (p.gap[i] > 0.0) continue;
-        std::array<int, 3> nodes = s.surface.nodes[p.facets[i]];
-        if (!s.bodies.empty()) nodes.fill(s.grains.centre(s.surface.grain[p.facets[i]]));
+    for (const PlatePoint& point : p.points) {
+        if (point.gap > 0.0) continue;
+        std::array<int, 3> nodes = s.surface.nodes[point.facet];
+        if (!s.bodies.empty()) nodes.fill(s.grains.centre(s.surface.grain[point.facet]));
         for (int n : nodes)
             hold(s, n, 0);
         held = nodes.front();
@@ -97,17 +96,13 @@ void bend(const SolidState& s, Plate& p, double disc_radius, double jaw_radius)
     p.disc_radius = disc_radius;
     p.jaw_radius = jaw_radius;
     const Vector centre = (jaw_radius - disc_radius) * p.normal;
-    p.gap.assign(p.facets.size(), 0.0);
-    p.normals.clear();
-    for (int i = 0; i < static_cast<int>(p.facets.size()); ++i) {
-        const Vector outwards = area_vector(s, p.facets[i]);
+    for (PlatePoint& point : p.points) {
+        const Vector outwards = area_vector(s, point.facet);
         const Vector from = (disc_radius / norm(outwards)) * outwards - centre;
         const double gap = jaw_radius - norm(from);
-        p.gap[i] = gap < no_gap * jaw_radius ? 0.0 : gap;
-        const Vector normal = (-1.0 / norm(from)) * from;
-        p.normals.insert(p.normals.end(), { normal.x, normal.y, normal.z });
+        point.gap = point.opening = gap < no_gap * jaw_radius ? 0.0 : gap;
+        point.normal = (-1.0 / norm(from)) * from;
     }
-    p.opening = p.gap;
 }
 
 Plate jaw_before(const SolidState& s, const SolidJaw& jaw)
@@ -127,26 +122,24 @@ Plate jaw_before(const SolidState& s, const SolidJaw& jaw)
         const Piece piece = piece_of(s, t, before);
         if (piece.share == 0.0) continue;
         add_touch(s, p, t, piece);
-        area += p.area.back();
-        reach += p.area.back() * dot(piece.place, outwards) / norm(outwards);
-        middle += p.area.back() * piece.place.y;
+        const double own = p.points.back().area;
+        area += own;
+        reach += own * dot(piece.place, outwards) / norm(outwards);
+        middle += own * piece.place.y;
     }
-    if (p.facets.empty())
+    if (p.points.empty())
         refuse("triangles before a jaw", 0.0, "", "must be above 0; lay it on a disc's mantle");
     const double disc_radius = reach / area;
     p.position = -disc_radius * p.normal + (middle / area) * axis;
     bend(s, p, disc_radius, jaw.ratio * disc_radius);
     // it touches the facets whose normals are nearest to its own
-    const double nearest = *std::min_element(p.gap.begin(), p.gap.end());
-    for (double& gap : p.gap)
-        gap = gap - nearest < no_gap * p.jaw_radius ? 0.0 : gap - nearest;
-    p.opening = p.gap;
+    set_gaps(p, least_gap(p), no_gap * p.jaw_radius);
     if (jaw.friction > 0.0) roughen(p, jaw.friction);
     return p;
 }
 
 /// Whether a plate has an area of the outside for itself; one of a line has none.
-bool covers(const Plate& plate) { return plate.width > 0.0 || plate.jaw_radius > 0.0; }
+bool covers(const Plate& plate) { return plate.face_area > 0.0 || is_jaw(plate); }
 
 }  // namespace
 
@@ -189,13 +182,14 @@ void require_bare(const SolidState& s, const Plate& plate)
 {
     std::vector<double> covered(s.surface.side.size(), 0.0);
     for (const Plate& there : s.plates)
-        for (std::size_t i = 0; covers(there) && i < there.facets.size(); ++i)
-            covered[there.facets[i]] += there.area[i];
-    for (std::size_t i = 0; i < plate.facets.size(); ++i) {
-        const int t = plate.facets[i];
+        if (covers(there))
+            for (const PlatePoint& point : there.points)
+                covered[point.facet] += point.area;
+    for (const PlatePoint& point : plate.points) {
+        const int t = point.facet;
         const double whole = norm(area_vector(s, t));
-        if (covered[t] == 0.0 || covered[t] + plate.area[i] <= (1.0 + no_area) * whole) continue;
-        refuse("area of a triangle before two plates", covered[t] + plate.area[i], "m^2",
+        if (covered[t] == 0.0 || covered[t] + point.area <= (1.0 + no_area) * whole) continue;
+        refuse("area of a triangle before two plates", covered[t] + point.area, "m^2",
             "must be at most its own; take another place, or a smaller part");
     }
 }

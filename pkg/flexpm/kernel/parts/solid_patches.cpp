@@ -96,17 +96,17 @@ std::array<SeatPoint, 3> lain_on(
 void seat(Plate& p, const std::vector<Vector>& places)
 {
     const auto [first, second] = seat_axes(p.normal);
-    const double size = std::sqrt(p.width);
+    const double size = std::sqrt(p.face_area);
     std::vector<SeatPoint> points;
     double reach = 0.0, high = 0.0;
     p.seated = true;
     for (std::size_t i = 0; i < places.size(); ++i) {
         Vector arm = cross(places[i] - p.position, p.normal);
         if (norm(arm) < no_gap * size) arm = {};
-        p.arms.insert(p.arms.end(), { arm.x, arm.y, arm.z });
-        points.push_back({ { dot(arm, first), dot(arm, second) }, p.gap[i] });
+        p.points[i].arm = arm;
+        points.push_back({ { dot(arm, first), dot(arm, second) }, p.points[i].gap });
         reach = std::max(reach, norm(arm));
-        high = std::max(high, p.gap[i]);
+        high = std::max(high, p.points[i].gap);
     }
     const double far = 10.0 * reach, above = 1e6 * (high + size);
     const auto on = lain_on(points,
@@ -126,13 +126,13 @@ void seat(Plate& p, const std::vector<Vector>& places)
         refuse("slope of what is before a seated plate", norm(p.turn), "",
             "must be <= " + number(steepest) + "; give another normal");
     }
-    const double face = dot(p.normal, places.front()) - p.gap.front() + at_seat;
+    const double face = dot(p.normal, places.front()) - p.points.front().gap + at_seat;
     p.position = p.position + (face - dot(p.normal, p.position)) * p.normal;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const double turned = dot(point_arm(p, static_cast<int>(i)), p.turn);
-        p.gap[i] -= at_seat;
-        if (std::fabs(p.gap[i] - turned) < no_gap * size) p.gap[i] = turned;  // it lies there
-        p.opening[i] = p.gap[i] - turned;
+    for (PlatePoint& point : p.points) {
+        const double turned = dot(point.arm, p.turn);
+        point.gap -= at_seat;
+        if (std::fabs(point.gap - turned) < no_gap * size) point.gap = turned;  // it lies there
+        point.opening = point.gap - turned;
     }
 }
 
@@ -157,20 +157,19 @@ Plate plate_before(const SolidState& s, const SolidPatch& patch)
         const Piece piece = piece_of(s, t, box);
         if (piece.share == 0.0) continue;
         add_touch(s, p, t, piece);
-        p.width += p.area.back();
-        p.position = p.position + p.area.back() * piece.place;
-        p.gap.push_back(dot(p.normal, piece.place));
+        PlatePoint& point = p.points.back();
+        p.face_area += point.area;
+        p.position = p.position + point.area * piece.place;
+        point.gap = dot(p.normal, piece.place);
         places.push_back(piece.place);
-        nearest = std::min(nearest, p.gap.back());
+        nearest = std::min(nearest, point.gap);
     }
-    if (p.facets.empty()) {
+    if (p.points.empty()) {
         refuse("triangles before a plate", 0.0, "", "must be above 0; lay it on the specimen");
     }
-    p.position = (1.0 / p.width) * p.position;
+    p.position = (1.0 / p.face_area) * p.position;
     const double none = no_gap * norm(patch.high - patch.low);
-    for (double& gap : p.gap)
-        gap = p.bonded || gap - nearest < none ? 0.0 : gap - nearest;
-    p.opening = p.gap;
+    set_gaps(p, nearest, p.bonded ? std::numeric_limits<double>::infinity() : none);
     if (patch.friction > 0.0) roughen(p, patch.friction);
     if (patch.seated) seat(p, places);
     return p;

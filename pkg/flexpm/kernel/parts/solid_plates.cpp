@@ -5,6 +5,7 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/forces/solid_pressure.hpp>
 #include <flexpm/kernel/parts/plate_loading.hpp>
+#include <flexpm/kernel/parts/surface_pieces.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 
 #include <algorithm>
@@ -23,52 +24,43 @@ Vector middle(const Array<double>& values, const std::array<int, 3>& nodes)
 
 void add_contact(const SolidState& s, Plate& p, int triangle)
 {
-    p.facets.push_back(triangle);
-    p.area.push_back(norm(area_vector(s, triangle)));
+    add_touch(s, p, triangle, { 1.0, { 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0 }, {} });
+    p.points.back().whole = true;
 }
 
 namespace {
 
 /// A vector where a contact lies on its triangle.
 Vector touched(
-    const Plate& plate, int index, const Array<double>& values, const std::array<int, 3>& nodes)
+    const PlatePoint& point, const Array<double>& values, const std::array<int, 3>& nodes)
 {
-    if (plate.shares.empty()) return middle(values, nodes);
+    if (point.whole) return middle(values, nodes);
     Vector sum;
     for (int k = 0; k < 3; ++k)
-        sum = sum + corner_share(plate, index, k) * space_vector(values, nodes[k]);
+        sum = sum + point.weights[k] * space_vector(values, nodes[k]);
     return sum;
 }
 
-void set_axes(std::vector<double>& values, int index, Vector v)
-{
-    values[3 * index] = v.x;
-    values[3 * index + 1] = v.y;
-    values[3 * index + 2] = v.z;
-}
-
-Vector along_face(const Plate& plate, int index, Vector way)
-{
-    const Vector normal = point_normal(plate, index);
-    return way - dot(normal, way) * normal;
-}
+Vector along_face(Vector normal, Vector way) { return way - dot(normal, way) * normal; }
 
 /// Force along the face on a grain that is at a way from its reference: a spring, and a slider that
 /// bears friction. What slides rubs with the mean of the forces before and after.
 Vector rub(Plate& plate, int index, Vector way)
 {
     const double stiffness = sliding_stiffness(plate, index);
-    const Vector slid = three_axes(plate.slid, index), old = three_axes(plate.shear_force, index);
-    const Vector stretch = along_face(plate, index, way) - slid;
+    PlatePoint& point = plate.points[index];
+    const Vector old = point_shear(plate, index);
+    const Vector stretch = along_face(point.normal, way) - point.slip;
     const double most = plate.bonded
         ? std::numeric_limits<double>::infinity()
         : plate.friction * std::max(point_push(plate, index), 0.0) / stiffness;
     const double size = norm(stretch);
     const Vector stuck = size > most ? (most / size) * stretch : stretch;
     const Vector slip = stretch - stuck, force = -stiffness * stuck;
-    plate.rubbed[index] -= 0.5 * dot(old + force, slip);
-    set_axes(plate.slid, index, slid + slip);
-    set_axes(plate.shear_force, index, force);
+    point.friction_energy -= 0.5 * dot(old + force, slip);
+    point.slip = point.slip + slip;
+    const auto [first, second] = face_axes(point.normal);
+    point.shear = { dot(first, force), dot(second, force) };
     return force;
 }
 
@@ -77,14 +69,22 @@ Vector force_of(const Plate& plate)
 {
     Vector sum;
     double pushes = 0.0;
-    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-        if (plate.normals.empty())
-            pushes += point_push(plate, i);
-        else
+    for (int i = 0; i < plate_points(plate); ++i) {
+        if (is_jaw(plate))
             sum = sum + point_push(plate, i) * point_normal(plate, i);
-        if (plate.friction > 0.0) sum = sum + three_axes(plate.shear_force, i);
+        else
+            pushes += point_push(plate, i);
+        if (plate.friction > 0.0) sum = sum + point_shear(plate, i);
     }
     return sum + pushes * plate.normal;
+}
+
+double friction_energy(const Plate& plate)
+{
+    double sum = 0.0;
+    for (const PlatePoint& point : plate.points)
+        sum += point.friction_energy;
+    return sum;
 }
 
 /// Let a plate press as the pressure has done that acts on its side, and store what that takes.
@@ -92,11 +92,11 @@ Vector force_of(const Plate& plate)
 void take_over_pressure(SolidState& s, Plate& p)
 {
     if (!is_pressed(s)) return;
-    for (int i = 0; i < static_cast<int>(p.facets.size()); ++i) {
-        const int triangle = p.facets[i];
-        p.opening[i] = -dot(p.normal, pressure_on(s, triangle)) / point_stiffness(p, i);
-        const Vector way = middle(s.grains.displacement, s.surface.nodes[triangle]);
-        p.gap[i] = p.opening[i] - dot(p.normal, way);
+    for (int i = 0; i < plate_points(p); ++i) {
+        PlatePoint& point = p.points[i];
+        point.opening = -dot(p.normal, pressure_on(s, point.facet)) / point_stiffness(p, i);
+        const Vector way = middle(s.grains.displacement, s.surface.nodes[point.facet]);
+        point.gap = point.opening - dot(p.normal, way);
     }
     s.ledger.initial += elastic_energy(p);
 }
@@ -117,9 +117,11 @@ double work_of_step(const Plate& plate, Vector before, double dt)
 void roughen(Plate& plate, double friction)
 {
     plate.friction = friction;
-    plate.rubbed.assign(plate.facets.size(), 0.0);
-    plate.shear_force.assign(3 * plate.facets.size(), 0.0);
-    plate.slid.assign(3 * plate.facets.size(), 0.0);
+    for (PlatePoint& point : plate.points) {
+        point.shear = {};
+        point.slip = {};
+        point.friction_energy = 0.0;
+    }
 }
 
 void lay_strip(Plate& plate, double strip)
@@ -142,19 +144,11 @@ int add_plate(SolidState& s, const Plate& plate)
 void hold_touching(SolidState& s)
 {
     for (Plate& plate : s.plates) {
-        const Plate all = plate;
-        const auto keep = [&](const auto& from, auto& to, std::size_t width) {
-            to.clear();
-            for (std::size_t i = 0; width * i < from.size(); ++i)
-                if (all.bonded || all.opening[i] <= 0.0)
-                    to.insert(to.end(), from.begin() + width * i, from.begin() + width * (i + 1));
+        const auto is_off = [&](const PlatePoint& point) {
+            return !plate.bonded && point.opening > 0.0;
         };
-        keep(all.facets, plate.facets, 1);
-        for (auto member : { &Plate::gap, &Plate::area, &Plate::opening, &Plate::rubbed })
-            keep(all.*member, plate.*member, 1);
-        for (auto member :
-            { &Plate::normals, &Plate::shear_force, &Plate::slid, &Plate::shares, &Plate::arms })
-            keep(all.*member, plate.*member, 3);
+        plate.points.erase(
+            std::remove_if(plate.points.begin(), plate.points.end(), is_off), plate.points.end());
         plate.bonded = true;
     }
     prepare_step(s);
@@ -164,10 +158,10 @@ void centre_position(const SolidState& s, Plate& plate)
 {
     Vector sum;
     double area = 0.0;
-    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-        const auto& nodes = s.surface.nodes[plate.facets[i]];
-        sum = sum + plate.area[i] * touched(plate, i, s.grains.reference, nodes);
-        area += plate.area[i];
+    for (const PlatePoint& point : plate.points) {
+        const auto& nodes = s.surface.nodes[point.facet];
+        sum = sum + point.area * touched(point, s.grains.reference, nodes);
+        area += point.area;
     }
     const Vector way = (1.0 / area) * sum - plate.position;
     plate.position = plate.position + (way - dot(plate.normal, way) * plate.normal);
@@ -194,12 +188,10 @@ void add_end_plate(SolidState& s, SolidSide side, bool bonded)
     p.bonded = bonded;
     for (int t = 0; t < static_cast<int>(s.surface.side.size()); ++t)
         if (s.surface.side[t] == number) add_contact(s, p, t);
-    if (p.facets.empty())
+    if (p.points.empty())
         refuse("add_end_plate: triangles of side " + std::to_string(number), 0.0, "",
             "must be above 0; give cells of a solid with bottom and top");
-    p.gap.assign(p.facets.size(), 0.0);
-    p.opening.assign(p.facets.size(), 0.0);
-    p.position = middle(s.grains.reference, s.surface.nodes[p.facets.front()]);
+    p.position = middle(s.grains.reference, s.surface.nodes[p.points.front().facet]);
     centre_position(s, p);
     take_over_pressure(s, p);
     s.plates.push_back(p);
@@ -215,9 +207,9 @@ void roughen_plates(SolidState& s, double friction)
     }
     for (Plate& plate : s.plates) {
         roughen(plate, friction);
-        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-            const Vector way = middle(s.grains.displacement, s.surface.nodes[plate.facets[i]]);
-            set_axes(plate.slid, i, along_face(plate, i, way));
+        for (PlatePoint& point : plate.points) {
+            const Vector way = middle(s.grains.displacement, s.surface.nodes[point.facet]);
+            point.slip = along_face(point.normal, way);
         }
     }
 }
@@ -228,16 +220,14 @@ void add_plate_forces(SolidState& s, int block)
     for (int i = plan.first_press[block]; i < plan.first_press[block + 1]; ++i) {
         const PlateTouch touch = plan.presses[i];
         Plate& plate = s.plates[touch.plate];
-        const auto& nodes = s.surface.nodes[plate.facets[touch.index]];
-        const Vector way =
-            touched(plate, touch.index, s.grains.displacement, nodes) - plate.displacement;
-        const Vector normal = point_normal(plate, touch.index);
-        plate.opening[touch.index] = plate.gap[touch.index] + dot(normal, way)
-            - dot(point_arm(plate, touch.index), plate.turn);
-        Vector force = point_push(plate, touch.index) * normal;
+        PlatePoint& point = plate.points[touch.index];
+        const auto& nodes = s.surface.nodes[point.facet];
+        const Vector way = touched(point, s.grains.displacement, nodes) - plate.displacement;
+        point.opening = gap_after(plate, touch.index, way);
+        Vector force = point_push(plate, touch.index) * point.normal;
         if (plate.friction > 0.0) force = force + rub(plate, touch.index, way);
         for (int k = 0; k < 3; ++k) {
-            const Vector part = corner_share(plate, touch.index, k) * force;
+            const Vector part = point.weights[k] * force;
             set_space_vector(
                 s.grains.force, nodes[k], space_vector(s.grains.force, nodes[k]) + part);
         }
@@ -250,6 +240,7 @@ void sum_plates(SolidState& s, double dt, double damping)
         Plate& plate = s.plates[number];
         const Vector before = plate.force;
         plate.force = force_of(plate);
+        if (plate.friction > 0.0) plate.friction_energy = friction_energy(plate);
         if (plate.loaded) {
             if (plate.machine_stiffness > 0.0)
                 plate.machine_give = dot(plate.normal, plate.force) / plate.machine_stiffness;

@@ -71,11 +71,20 @@ Piece piece_of(const SolidState& s, int triangle, const std::vector<HalfSpace>& 
     return piece;
 }
 
+void set_gaps(Plate& plate, double nearest, double none)
+{
+    for (PlatePoint& point : plate.points)
+        point.gap = point.opening = point.gap - nearest < none ? 0.0 : point.gap - nearest;
+}
+
 void add_touch(const SolidState& s, Plate& plate, int triangle, const Piece& piece)
 {
-    plate.facets.push_back(triangle);
-    plate.shares.insert(plate.shares.end(), piece.middle.begin(), piece.middle.end());
-    plate.area.push_back(piece.share * norm(area_vector(s, triangle)));
+    PlatePoint point;
+    point.facet = triangle;
+    point.weights = piece.middle;
+    point.area = piece.share * norm(area_vector(s, triangle));
+    point.normal = plate.normal;
+    plate.points.push_back(point);
 }
 
 }  // namespace flexpm

@@ -33,6 +33,11 @@ bool faces(const Plate& plate, Vector outwards);
 /// Part of a surface triangle, at the reference, that lies in all of some half spaces.
 Piece piece_of(const SolidState& s, int triangle, const std::vector<HalfSpace>& within);
 
+/// Let a plate touch at once with its nearest points: gaps are counted from there.
+/// @param nearest  least gap [m]
+/// @param none     gap beyond it that is none [m]
+void set_gaps(Plate& plate, double nearest, double none);
+
 /// Let a plate touch a piece of a triangle, in its middle.
 void add_touch(const SolidState& s, Plate& plate, int triangle, const Piece& piece);
 

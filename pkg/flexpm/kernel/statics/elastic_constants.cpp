@@ -23,7 +23,7 @@ Vector static_force(const Assembly& a, const Plate& plate)
 {
     Vector sum;
     for (int i = 0; i < plate_points(plate); ++i) {
-        const PlatePoint p = plate_point(plate, i);
+        const EdgePoint p = edge_point(plate, i);
         const StiffnessBlock k = plate_springs(plate, i);
         const auto n = a.facets.nodes(p.facet);
         const Vector u =

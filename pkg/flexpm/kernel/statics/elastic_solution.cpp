@@ -292,7 +292,7 @@ Assembly state_after(
         s.grains.displacement[i] += m.displacement[i];
     for (std::size_t i = 0; i < s.plates.size(); ++i) {
         for (int k = 0; k < plate_points(s.plates[i]); ++k)
-            s.plates[i].opening[k] = points.gap(i, k, m.displacement, m.plates[i]);
+            s.plates[i].points[k].opening = points.gap(i, k, m.displacement, m.plates[i]);
         s.plates[i].displacement = s.plates[i].displacement + m.plates[i].displacement;
         s.plates[i].turn.z += m.plates[i].turn;
         s.plates[i].machine_give -= m.gives[i];

@@ -61,7 +61,7 @@ std::vector<double> OneSidedPoints::sticking(
         const Plate& plate = a.plates[i];
         for (int k = 0; k < plate_points(plate); ++k) {
             if (!closed[index_of_plate(i, k)] || plate.friction <= 0.0) continue;
-            const double now = plate.bonded ? 0.0 : plate.opening[k];
+            const double now = plate.bonded ? 0.0 : plate.points[k].opening;
             found[index_of_plate(i, k)] = part(now, gap(i, k, moved, plates[i]));
         }
     }
@@ -72,7 +72,7 @@ Vector OneSidedPoints::point_way(
     std::size_t i, int k, const Array<double>& moved, const PlateWay& own) const
 {
     const Plate& plate = a.plates[i];
-    const PlatePoint p = plate_point(plate, k);
+    const EdgePoint p = edge_point(plate, k);
     return vector_on_edge(moved, a.facets.nodes(p.facet), p.weight) - own.at(plate, k);
 }
 
@@ -80,7 +80,7 @@ double OneSidedPoints::gap(
     std::size_t i, int k, const Array<double>& moved, const PlateWay& own) const
 {
     const Plate& plate = a.plates[i];
-    return plate.opening[k] + dot(point_normal(plate, k), point_way(i, k, moved, own));
+    return plate.points[k].opening + dot(point_normal(plate, k), point_way(i, k, moved, own));
 }
 
 GivenSprings OneSidedPoints::springs(const Bearing& now) const
@@ -115,7 +115,7 @@ Array<double> OneSidedPoints::more_force(
     });
     for (std::size_t i = 0; i < a.plates.size(); ++i) {
         for (int k = 0; k < plate_points(a.plates[i]); ++k) {
-            const PlatePoint p = plate_point(a.plates[i], k);
+            const EdgePoint p = edge_point(a.plates[i], k);
             const Vector after = point_force(now, i, k, point_way(i, k, moved, plates[i]));
             const Point more = in_plane(after - flexpm::point_force(a.plates[i], k));
             const auto n = a.facets.nodes(p.facet);
@@ -159,7 +159,7 @@ PointSpring OneSidedPoints::spring(const Bearing& now, int c, int p) const
 
 PointSpring OneSidedPoints::plate_spring(const Bearing& now, std::size_t i, int k) const
 {
-    const PlatePoint p = plate_point(a.plates[i], k);
+    const EdgePoint p = edge_point(a.plates[i], k);
     return { ((now.closed[index_of_plate(i, k)] ? 1.0 : 0.0) + now.kept) * p.stiffness,
         (now.sticks[index_of_plate(i, k)] + now.kept) * p.shear_stiffness };
 }
@@ -169,9 +169,10 @@ Vector OneSidedPoints::point_force(const Bearing& now, std::size_t i, int k, Vec
     const Plate& plate = a.plates[i];
     const PointSpring spring = plate_spring(now, i, k);
     const Vector normal = point_normal(plate, k), t = tangent_of(in_plane(normal));
-    const double stiffness = plate_point(plate, k).stiffness;
-    const double pressed = now.closed[index_of_plate(i, k)] ? stiffness * plate.opening[k] : 0.0;
-    const double shear = now.sticks[index_of_plate(i, k)] > 0.0 ? plate.shear_force[k] : 0.0;
+    const double stiffness = edge_point(plate, k).stiffness;
+    const double pressed =
+        now.closed[index_of_plate(i, k)] ? stiffness * plate.points[k].opening : 0.0;
+    const double shear = now.sticks[index_of_plate(i, k)] > 0.0 ? plate.points[k].shear.x : 0.0;
     return -(pressed + spring.normal * dot(normal, way)) * normal
         + (shear - spring.shear * dot(t, way)) * t;
 }

@@ -93,12 +93,12 @@ void add_presses(const SolidState& s, const NodeNumbers& numbers, LinearSolid& s
 {
     for (int number = 0; number < static_cast<int>(s.plates.size()); ++number) {
         const Plate& plate = s.plates[number];
-        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i) {
-            const int triangle = plate.facets[i], grain = s.surface.grain[triangle];
+        for (int i = 0; i < plate_points(plate); ++i) {
+            const int triangle = plate.points[i].facet, grain = s.surface.grain[triangle];
             std::array<int, 3> nodes = s.surface.nodes[triangle];
             for (int& n : nodes)
                 n = numbers.of(grain, n);
-            const bool touches = plate.bonded || plate.opening[i] <= 0.0;
+            const bool touches = plate.bonded || plate.points[i].opening <= 0.0;
             const std::array<double, 3> shares = { corner_share(plate, i, 0),
                 corner_share(plate, i, 1), corner_share(plate, i, 2) };
             solid.presses.push_back(

@@ -34,7 +34,7 @@ void add_plate_loads(
         const PlateLag lag = plate_lag(a, plate, of.plates[number], nullptr);
         const double turn = of.turns.empty() ? 0.0 : of.turns[number];
         for (int i = 0; i < plate_points(plate); ++i) {
-            const PlatePoint p = plate_point(plate, i);
+            const EdgePoint p = edge_point(plate, i);
             const StiffnessBlock k = springs.plates.empty()
                 ? plate_springs(plate, i)
                 : plate_springs(plate, i, springs.plates[number][i]);

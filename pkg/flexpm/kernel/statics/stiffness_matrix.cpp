@@ -115,7 +115,7 @@ LagAnswer lag_answer(const Assembly& a, const Plate& plate)
     LagAnswer found {};
     double k = gives ? plate.machine_stiffness : 1.0, c = 0.0, m = 0.0;
     for (int i = 0; i < plate_points(plate); ++i) {
-        const PlatePoint p = plate_point(plate, i);
+        const EdgePoint p = edge_point(plate, i);
         const Point n = in_plane(point_normal(plate, i));
         const double share = gives ? dot(plate.normal, n) : 0.0, arm = point_arm(plate, i).z;
         const auto nodes = a.facets.nodes(p.facet);
@@ -161,7 +161,7 @@ void add_plate(const Assembly& a, const Plate& plate, const PointSprings* spring
     std::vector<StiffnessEntry>& entries)
 {
     for (int i = 0; i < plate_points(plate); ++i) {
-        const PlatePoint p = plate_point(plate, i);
+        const EdgePoint p = edge_point(plate, i);
         const StiffnessBlock k =
             springs ? plate_springs(plate, i, (*springs)[i]) : plate_springs(plate, i);
         const auto n = a.facets.nodes(p.facet);
@@ -180,7 +180,7 @@ void add_plate(const Assembly& a, const Plate& plate, const PointSprings* spring
 
 StiffnessBlock plate_springs(const Plate& plate, int point)
 {
-    const PlatePoint p = plate_point(plate, point);
+    const EdgePoint p = edge_point(plate, point);
     return plate_springs(plate, point, { p.stiffness, p.shear_stiffness });
 }
 

@@ -94,13 +94,14 @@ bool loosen_plates(Assembly& a, const Array<double>& velocity)
         if (plate.bonded) continue;
         const PlateLag lag = plate_lag(a, plate, plate.displacement, &velocity);
         for (int i = 0; i < plate_points(plate); ++i) {
-            const PlatePoint p = plate_point(plate, i);
+            const EdgePoint p = edge_point(plate, i);
             const Point v = vector_on_edge(velocity, a.facets.nodes(p.facet), p.weight);
             const Vector way = point_way(plate, i, plate.displacement, lag);
             const bool leaves = dot(point_normal(plate, i), v - way) > 0.0;
-            if (plate.opening[i] < 0.0 || !leaves || plate.opening[i] == loosened) continue;
-            plate.area[i] *= loose;
-            plate.opening[i] = loosened;
+            if (plate.points[i].opening < 0.0 || !leaves || plate.points[i].opening == loosened)
+                continue;
+            plate.points[i].area *= loose;
+            plate.points[i].opening = loosened;
             any = true;
         }
     }

@@ -108,7 +108,7 @@ double add_plate(const Assembly& a, const Plate& plate, StiffnessBound& bound)
 {
     double own = 0.0;
     for (int i = 0; i < plate_points(plate); ++i) {
-        const PlatePoint p = plate_point(plate, i);
+        const EdgePoint p = edge_point(plate, i);
         const Point n = in_plane(point_normal(plate, i));
         for (const auto& [direction, stiffness] :
             { std::pair { n, p.stiffness }, std::pair { tangent_of(n), p.shear_stiffness } }) {
@@ -158,7 +158,7 @@ void scale_plates(Assembly& a, double damping, double dt)
 {
     StiffnessBound unused = stiffness_bound(a);
     for (Plate& p : a.plates) {
-        if (!p.facets.empty()) p.mass = mass_for(add_plate(a, p, unused), damping, dt);
+        if (!p.points.empty()) p.mass = mass_for(add_plate(a, p, unused), damping, dt);
     }
 }
 

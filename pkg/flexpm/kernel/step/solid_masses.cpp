@@ -100,7 +100,7 @@ void add_point(const SolidState& s, int contact, int point, SolidBound& bound)
 /// A contact of a plate, which gives way itself if a load moves it.
 void add_touch(const SolidState& s, const Plate& plate, int index, SolidBound& bound)
 {
-    const int triangle = plate.facets[index], grain = s.surface.grain[triangle];
+    const int triangle = plate.points[index].facet, grain = s.surface.grain[triangle];
     const double sides = plate.loaded ? 2.0 : 1.0;
     if (!s.grains.is_rigid(grain)) {
         for (int k = 0; k < 3; ++k)
@@ -124,7 +124,7 @@ void add_touch(const SolidState& s, const Plate& plate, int index, SolidBound& b
 double bound_of(const Plate& plate)
 {
     double sum = 0.0;
-    for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
+    for (int i = 0; i < plate_points(plate); ++i)
         sum += 3.0 * point_stiffness(plate, i);
     return sum;
 }
@@ -194,7 +194,7 @@ SolidBound stiffness_bound(const SolidState& s)
         for (int p = 0; p < s.contacts.points_of(c); ++p)
             add_point(s, c, p, bound);
     for (const Plate& plate : s.plates)
-        for (int i = 0; i < static_cast<int>(plate.facets.size()); ++i)
+        for (int i = 0; i < plate_points(plate); ++i)
             add_touch(s, plate, i, bound);
     complete_rigid(s, bound);
     return bound;

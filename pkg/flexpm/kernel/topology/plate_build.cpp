@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 
 namespace flexpm {
@@ -111,7 +112,6 @@ std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const Pl
         p.side = side;
         p.width = width;
         p.position = facet_place(a, facets.front()).start;
-        p.facets = group;
         if (in_blocks) {  // each block bears the pressure on its own edges
             p.width = 0.0;
             for (int e : group) {
@@ -119,8 +119,7 @@ std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const Pl
                 p.width += std::fabs(along(direction, facet.end - facet.start));
             }
         }
-        p.points = points_on_facet(a, p);
-        lay(a, p);
+        lay_on_edges(a, p, group, points_on(a, group));
         centre_position(a, p);
         seat(a, p);
         plates.push_back(p);
@@ -144,23 +143,24 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
 {
     Plate p = plate_of(a, unit(normal), contact);
     double nearest = std::numeric_limits<double>::infinity();
+    std::vector<int> facets;
     for (int e = 0; e < a.facets.count; ++e) {
         const FacetPlace facet = facet_place(a, e);
         const bool outer = a.facets.side[e] >= 0;
-        if (outer && along(p.normal, facet.normal()) > facing) p.facets.push_back(e);
+        if (outer && along(p.normal, facet.normal()) > facing) facets.push_back(e);
     }
-    if (p.facets.empty())
+    if (facets.empty())
         refuse("plate", 0, "", "no boundary edge faces it; turn its normal inwards");
-    p.points = points_on_facet(a, p);
-    for (int e : p.facets) {
+    const TouchAt points = points_on(a, facets);
+    for (int e : facets) {
         const FacetPlace facet = facet_place(a, e);
-        for (int i = 0; i < p.points; ++i) {
-            const Point x = facet.at(plate_weight(p, i));
+        for (double weight : weights_of(points)) {
+            const Point x = facet.at(weight);
             if (along(p.normal, x) < nearest) p.position = x;
             nearest = std::min(nearest, along(p.normal, x));
         }
     }
-    lay(a, p);
+    lay_on_edges(a, p, facets, points);
     a.plates.push_back(p);
     return static_cast<int>(a.plates.size()) - 1;
 }
@@ -169,13 +169,13 @@ void fix_tangential(Assembly& a, int plate)
 {
     require_plate(a, plate);
     const Plate& p = a.plates[plate];
-    if (p.gap.empty()) refuse("edges at the plate", 0.0, "", "must be at least 1; all are erased");
-    const auto first =
-        static_cast<int>(std::min_element(p.gap.begin(), p.gap.end()) - p.gap.begin());
-    const int facet = p.facets[first / p.points], grain = a.facets.grain[facet];
-    const int node = a.grains.is_rigid(grain)
-        ? a.grains.centre(grain)
-        : a.facets.nodes(facet)[plate_weight(p, first % p.points) > 0.5];
+    if (p.points.empty())
+        refuse("edges at the plate", 0.0, "", "must be at least 1; all are erased");
+    const auto first = std::min_element(p.points.begin(), p.points.end(),
+        [](const PlatePoint& one, const PlatePoint& other) { return one.gap < other.gap; });
+    const int facet = first->facet, grain = a.facets.grain[facet];
+    const int node = a.grains.is_rigid(grain) ? a.grains.centre(grain)
+                                              : a.facets.nodes(facet)[first->weights[1] > 0.5];
     const int axis = std::fabs(p.normal.y) > std::fabs(p.normal.x) ? 0 : 1;
     a.grains.prescribed[a.grains.component(node, axis)] = 1;
     a.grains.velocity[a.grains.component(node, axis)] = 0.0;
@@ -186,11 +186,10 @@ int add_wall(Assembly& a, Point position, Point normal, const PlateContact& cont
     Plate p = plate_of(a, unit(normal), contact);
     p.position = position;
     list_inner_facets(a);
-    for (int e = 0; e < a.facets.count; ++e)
-        p.facets.push_back(e);
-    p.points = 2;  // rigid grains, too, rest on their corners
-    lay(a, p);
-    const double least = *std::min_element(p.gap.begin(), p.gap.end());
+    std::vector<int> facets(a.facets.count);
+    std::iota(facets.begin(), facets.end(), 0);
+    lay_on_edges(a, p, facets, TouchAt::ends);  // rigid grains, too, rest on their corners
+    const double least = least_gap(p);
     if (!(least >= 0.0)) refuse("gap between wall and grains", least, "m", "must not be below 0");
     a.plates.push_back(p);
     return static_cast<int>(a.plates.size()) - 1;

@@ -21,32 +21,13 @@ namespace {
 /// Take the points on the facets of a grain from a plate, and the force that they passed on.
 void forget_facets(const Assembly& a, int grain, Plate& plate)
 {
-    Plate kept = plate;
-    for (auto* values : { &kept.gap, &kept.area, &kept.opening, &kept.shear_force })
-        values->clear();
-    kept.normals.clear();
-    kept.arms.clear();
-    kept.facets.clear();
-    for (std::size_t e = 0; e < plate.facets.size(); ++e) {
-        const bool stays = a.facets.grain[plate.facets[e]] != grain;
-        if (stays) kept.facets.push_back(plate.facets[e]);
-        for (int p = 0; p < plate.points; ++p) {
-            const int i = static_cast<int>(e) * plate.points + p;
-            if (!stays) {
-                kept.force = kept.force - point_force(plate, i);
-                continue;
-            }
-            kept.gap.push_back(plate.gap[i]);
-            kept.area.push_back(plate.area[i]);
-            kept.opening.push_back(plate.opening[i]);
-            kept.shear_force.push_back(plate.shear_force[i]);
-            if (plate.seated) kept.arms.push_back(plate.arms[i]);
-            if (plate.normals.empty()) continue;
-            const Vector normal = point_normal(plate, i);
-            kept.normals.insert(kept.normals.end(), { normal.x, normal.y });
-        }
-    }
-    plate = kept;
+    const auto is_gone = [&](const PlatePoint& point) {
+        return a.facets.grain[point.facet] == grain;
+    };
+    for (int i = 0; i < plate_points(plate); ++i)
+        if (is_gone(plate.points[i])) plate.force = plate.force - point_force(plate, i);
+    plate.points.erase(
+        std::remove_if(plate.points.begin(), plate.points.end(), is_gone), plate.points.end());
 }
 
 /// Take the nodes of a grain from a set.

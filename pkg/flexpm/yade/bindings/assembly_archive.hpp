@@ -26,6 +26,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::MeshGroup& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::ElasticMaterial& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::LawParameters& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::PlatePoint& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::Plate& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::NodeSet& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::HeldEdge& part, unsigned) { archiveMembers(archive, part); }
@@ -40,7 +41,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::SteadyMotion& part, unsigned) { archiveMembers(archive, part); }
 
 	/// Version of what visit_members() lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned assemblyVersion = 26;
+	constexpr unsigned assemblyVersion = 27;
 
 	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned version)
 	{
@@ -61,7 +62,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::RigidBody& part, unsigned) { archiveMembers(archive, part); }
 
 	/// Version of what SolidState lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned solidVersion = 6;
+	constexpr unsigned solidVersion = 7;
 
 	/// Call flexpm::prepare_step() after loading.
 	template <class Archive> void serialize(Archive& archive, flexpm::SolidState& solid, unsigned version)

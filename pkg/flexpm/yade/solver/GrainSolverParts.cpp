@@ -144,12 +144,11 @@ py::list GrainSolver::plates()
 		d["seated"]        = p.seated;
 		d["angle"]         = turnOf(grains(), p.turn);
 		d["contact_angle"] = onState([&](const auto& state) { return flexpm::contact_angle(state, number); });
+		d["area"]          = p.face_area;
 		if (solid()) {
-			d["area"]         = p.width;
 			d["pressed_area"] = flexpm::pressed_area(p);
 		} else {
 			d["width"]         = p.width;
-			d["area"]          = assembly.area_of(p.width);
 			d["middle"]        = tupleOf(grains(), flexpm::middle_of_face(assembly, p));
 			d["contact_width"] = flexpm::contact_width(assembly, number);
 		}
