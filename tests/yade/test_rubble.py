@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rubble under gravity: loose grains fall into a box, touch, rub, and come to rest."""
+"""Rubble and blocks under gravity: they fall on walls, touch, rub, and come to rest."""
 
 from __future__ import annotations
 
@@ -122,6 +122,38 @@ def test_contacts_keep_their_numbers_while_others_come_and_go():
     ended = kept[max(set(kept) & gone)]
     with pytest.raises(RuntimeError, match="has ended"):
         _ = ended.opening
+
+
+@pytest.mark.parametrize("model", ["rigid", "flexible"])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_bonded_block_falls_on_a_wall_and_comes_to_rest(dimension, model):
+    yade.O.reset()
+    if dimension == 2:
+        specimen = flexpm.Specimen.rectangle(0.008, 0.008, thickness=0.08, seed=1)
+    else:
+        specimen = flexpm.Specimen.box(0.009, 0.009, 0.009, seed=1)
+    weight = 2650.0 * GRAVITY * (0.008**2 * 0.08 if dimension == 2 else 0.009**3)
+    built = flexpm.build(specimen, model=model, damping=0.7, dynamic=True, gravity=GRAVITY)
+    drop, up = 1e-8, dimension - 1
+    place, normal = np.zeros(3), np.zeros(3)
+    place[up], normal[up] = -drop, 2.0
+    wall = built.solver.addWall(place, normal)
+    built.set_masses()
+    assert built.solver.plates()[wall]["force"] == (0.0,) * dimension
+    for _ in range(40):
+        built.run(500)
+        force = built.solver.plates()[wall]["force"]
+        rests = built.solver.energies()["kinetic_energy"] < 1e-6 * weight * drop
+        if rests and force[up] > 0.0:
+            break
+    assert rests
+    assert force[up] == pytest.approx(weight, rel=1e-2)
+    energies = built.solver.energies()
+    given = energies.pop("boundary_work") + energies.pop("initial_energy")
+    assert -energies["potential_energy"] > weight * drop
+    assert sum(energies.values()) == pytest.approx(given, abs=0.01 * weight * drop)
+    with pytest.raises(ValueError, match="gap between wall and grains"):
+        built.solver.addWall(-2.0 * place, normal)
 
 
 @pytest.mark.parametrize(

@@ -185,6 +185,34 @@ int add_patch_plate(SolidState& s, const SolidPatch& patch)
     return add_plate(s, plate);
 }
 
+int add_wall(SolidState& s, Vector position, Vector normal, double friction)
+{
+    check_not_negative("friction of a plate", friction, "");
+    check_positive("length of the plate's normal", norm(normal), "");
+    Plate p = plain_plate(s, SolidSide::bottom);
+    p.side = -1;
+    p.normal = (1.0 / norm(normal)) * normal;
+    p.position = position;
+    for (int t = 0; t < static_cast<int>(s.surface.grain.size()); ++t) {
+        const double area = norm(area_vector(s, t)), none = no_gap * std::sqrt(area);
+        for (int k = 0; k < 3; ++k) {
+            PlatePoint point;
+            point.facet = t;
+            point.weights[k] = 1.0;
+            point.area = area / 3.0;
+            point.normal = p.normal;
+            const Vector x = space_vector(s.grains.reference, s.surface.nodes[t][k]);
+            const double gap = dot(p.normal, x - position);
+            point.gap = point.opening = std::fabs(gap) < none ? 0.0 : gap;
+            p.points.push_back(point);
+        }
+    }
+    const double least = least_gap(p);
+    if (!(least >= 0.0)) refuse("gap between wall and grains", least, "m", "must not be below 0");
+    if (friction > 0.0) roughen(p, friction);
+    return add_plate(s, p);
+}
+
 int find_patch_plate(const SolidState& s, const SolidPatch& patch)
 {
     return find_alike(s.plates, plate_before(s, patch));

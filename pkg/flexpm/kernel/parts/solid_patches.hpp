@@ -25,6 +25,16 @@ struct SolidPatch {
 ///                                touches in a line
 int add_patch_plate(SolidState& s, const SolidPatch& patch);
 
+/// Lay a plate through a position, apart from the specimen, that all of its surface may come to
+/// touch: with the corners of the surface triangles, each of which has a third of its triangle.
+/// Masses must be scaled again afterwards.
+/// @param normal    from the plate to the specimen, of any length
+/// @param friction  coefficient [-]; 0: smooth
+/// @return  number of the plate
+/// @throws std::invalid_argument  if it cuts a grain, the normal has no length, or the friction is
+///                                below 0
+int add_wall(SolidState& s, Vector position, Vector normal, double friction);
+
 /// Number of the plate that add_patch_plate() has laid on a patch; -1 if there is none.
 int find_patch_plate(const SolidState& s, const SolidPatch& patch);
 

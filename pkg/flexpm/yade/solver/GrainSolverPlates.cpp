@@ -63,6 +63,7 @@ void GrainSolver::fixTangential(int plate) { flexpm::fix_tangential(assembly, pl
 
 int GrainSolver::addWall(Vector3r position, Vector3r normal, Real friction)
 {
+	if (solid()) return flexpm::add_wall(space, fromYade(position), fromYade(normal), friction);
 	return flexpm::add_wall(assembly, { position[0], position[1] }, { normal[0], normal[1] }, { 0, friction, false });
 }
 
