@@ -4,6 +4,7 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
+#include <flexpm/kernel/assembly/solid_state.hpp>
 #include <flexpm/kernel/assembly/triangle_rows.hpp>
 #include <flexpm/kernel/core/mean.hpp>
 
@@ -103,6 +104,18 @@ inline Resultant resultant_on(const Grains& grains, int grain)
         sum.moment = sum.moment + cross(grains.position(node) - middle, force);
     }
     return sum;
+}
+
+/// The same of a state. In 3D a rigid grain knows its moment, whether or not its nodes are shown.
+inline Resultant resultant_on(const Assembly& a, int grain)
+{
+    return resultant_on(a.grains, grain);
+}
+inline Resultant resultant_on(const SolidState& s, int grain)
+{
+    const Grains& grains = s.grains;
+    if (!grains.is_rigid(grain)) return resultant_on(grains, grain);
+    return { grains.vector(grains.force, grains.centre(grain)), s.bodies[grain].moment };
 }
 
 /// Numbers of contacts, without erased ones.

@@ -257,6 +257,7 @@ struct RigidBody {
     Vector angular_momentum;  ///< half a step later [N m s]
     SpaceTensor inertia {};   ///< in the axes of the reference, scaled or real [kg m^2]
     bool spin_held = false;   ///< the spin is given
+    Vector moment;            ///< of all forces about the centre, at the last forces [N m]
 
     template <class Self, class Visitor> static void visit_members(Self& s, Visitor&& visit)
     {
@@ -277,6 +278,9 @@ struct RigidBody {
         visit("inertia_xz", s.inertia.xz);
         visit("inertia_xy", s.inertia.xy);
         visit("spin_held", s.spin_held);
+        visit("moment_x", s.moment.x);
+        visit("moment_y", s.moment.y);
+        visit("moment_z", s.moment.z);
     }
 };
 
@@ -359,8 +363,10 @@ struct SolidPlan {
     Array<double> parcels;
 
     // Rigid grains: contacts read their motions and add to their wrenches, so that a step leaves
-    // their nodes behind, see show_nodes(). Nodes on which plates or pressures act go on with them.
-    bool nodes_behind = false;  ///< places of nodes and forces on them are of an earlier step
+    // their nodes behind, see show_places() and show_nodes(). Nodes on which plates or pressures act
+    // go on with them.
+    bool places_behind = false;            ///< places of nodes are those of an earlier step
+    bool forces_behind = false;            ///< forces on nodes are
     std::vector<std::uint8_t> node_loads;  ///< 1 of blocks of grains on whose nodes something acts
     std::vector<BodyPlace> body_places;    ///< of each block of grains
     Array<double> motions;                 ///< [block of grains][RigidMotionRow]

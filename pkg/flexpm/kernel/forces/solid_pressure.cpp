@@ -27,7 +27,7 @@ Vector way_of(const SolidState& s, int triangle)
 /// Make room for pressures, of which there was none.
 void begin_pressures(SolidState& s)
 {
-    show_nodes(s);
+    show_places(s);
     SurfaceTriangles& surface = s.surface;
     surface.pressure.assign(surface.side.size(), 0.0);
     surface.push.assign(3 * surface.side.size(), 0.0);

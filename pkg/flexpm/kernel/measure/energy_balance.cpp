@@ -161,7 +161,7 @@ template <class State> double damping_power(const State& s, double damping)
     };
     for (int g = 0; g < grains.count; ++g) {
         if (grains.is_rigid(g)) {
-            const Resultant on = resultant_on(grains, g);
+            const Resultant on = resultant_on(s, g);
             add_vector(on.force, grains.centre(g));
             const Vector spin = free_spin(s, g);
             total += std::fabs(on.moment.x * spin.x) + std::fabs(on.moment.y * spin.y)

@@ -169,6 +169,7 @@ Resultant forces_on_body(SolidState& s, int block)
     }
     if (s.has_gravity()) on.force = on.force + space_vector(grains.force, centre);
     set_space_vector(grains.force, centre, on.force);
+    s.bodies[grain].moment = on.moment;
     return on;
 }
 
@@ -263,18 +264,34 @@ void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& su
     integrate_turn(body, moment, spin_in(s.undamped(), grain), o, sums);
 }
 
+void leave_nodes_behind(SolidState& s)
+{
+    s.plan.places_behind = s.is_rigid();
+    s.plan.forces_behind = s.is_rigid();
+}
+
+void show_places(SolidState& s)
+{
+    if (!s.plan.places_behind) return;
+    s.plan.places_behind = false;
+    for (int block = 0; block < s.grains.blocks(); ++block) {
+        const auto [grain, centre] = s.plan.body_places[block];
+        if (s.plan.node_loads[block] == 0)
+            place_body(s, grain, space_vector(s.grains.displacement, centre));
+    }
+}
+
 void show_nodes(SolidState& s)
 {
-    if (!s.plan.nodes_behind) return;
-    s.plan.nodes_behind = false;
-    Grains& grains = s.grains;
-    for (int grain = 0; grain < grains.count; ++grain) {
-        const int block = grains.block_of(grain), centre = grains.centre(grain);
+    show_places(s);
+    if (!s.plan.forces_behind) return;
+    s.plan.forces_behind = false;
+    for (int block = 0; block < s.grains.blocks(); ++block) {
         if (s.plan.node_loads[block] != 0) continue;
-        place_body(s, grain, space_vector(grains.displacement, centre));
-        const Vector force = space_vector(grains.force, centre);
-        clear_nodes(grains, block);
-        set_space_vector(grains.force, centre, force);
+        const int centre = s.plan.body_places[block].centre;
+        const Vector force = space_vector(s.grains.force, centre);
+        clear_nodes(s.grains, block);
+        set_space_vector(s.grains.force, centre, force);
     }
     add_node_forces(s);
 }

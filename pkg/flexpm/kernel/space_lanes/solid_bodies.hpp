@@ -31,8 +31,13 @@ void sum_body_forces(SolidState& s, int block);
 /// spin half a step later is that whose turn in the middle of the step has the momentum.
 void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums);
 
-/// Put the nodes of rigid grains where these are, and the forces on their nodes there, if a step has
-/// left them behind.
+/// Note that a step has left the nodes of rigid grains behind.
+void leave_nodes_behind(SolidState& s);
+
+/// Put the nodes of rigid grains where these are, if a step has left them behind.
+void show_places(SolidState& s);
+
+/// The same, and the forces on them.
 void show_nodes(SolidState& s);
 
 /// Motion of a rigid grain since the reference.

@@ -187,7 +187,7 @@ void find_forces(SolidState& s)
             add_tetrahedron_forces(s, block);
     }
     sum_plates(s, 0.0, 0.0);
-    s.plan.nodes_behind = s.is_rigid();
+    leave_nodes_behind(s);
     show_nodes(s);
 }
 
@@ -211,7 +211,7 @@ void step(SolidState& s, const StepOptions& options)
         update_shared_grains(s, own, options);
     };
     team.run(share);
-    s.plan.nodes_behind = s.is_rigid();
+    leave_nodes_behind(s);
     if (!options.leave_nodes) show_nodes(s);
     hold_faces(s);
     sum_plates(s, options.dt, options.damping);

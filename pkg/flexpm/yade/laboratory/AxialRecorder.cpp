@@ -90,7 +90,7 @@ void AxialRecorder::action()
 	for (Real own : testFrame().values(*solver, now.axial_stress, now.axial_strain))
 		values.push_back(own);
 	for (const auto& gauge : gauges)
-		values.push_back(solver->solid() ? gauge->reading(*solver->solid()) : gauge->reading(solver->forEngines()));
+		values.push_back(solver->placed() ? gauge->reading(*solver->placed()) : gauge->reading(solver->forEngines()));
 	if (!controlled.empty()) values.push_back(setPoint);
 	stress       = now.axial_stress;
 	strain       = now.axial_strain;
@@ -155,7 +155,7 @@ std::pair<Real, Real> AxialRecorder::measure(const string& column, GrainSolver& 
 		if (column == "lateral_strain") own->first -= zero[1];
 		return *own;
 	};
-	return solver.solid() ? ofState(*solver.solid()) : ofState(solver.forEngines());
+	return solver.placed() ? ofState(*solver.placed()) : ofState(solver.forEngines());
 }
 
 py::list AxialRecorder::gaugeList() const
@@ -170,7 +170,7 @@ py::list AxialRecorder::lostGauges() const
 {
 	const auto solver = GrainSolver::ofScene(*Omega::instance().getScene());
 	py::list   lost;
-	if (solver->solid()) return lost; // a solid keeps its grains
+	if (solver->placed()) return lost; // a solid keeps its grains
 	const auto& assembly = solver->current();
 	for (const auto& gauge : gauges)
 		if (gauge->lost(assembly.grains)) lost.append(gauge->name);
@@ -181,7 +181,7 @@ Real AxialRecorder::reading(const string& name) const
 {
 	const auto solver = GrainSolver::ofScene(*Omega::instance().getScene());
 	for (const auto& gauge : gauges)
-		if (gauge->name == name) return solver->solid() ? gauge->reading(*solver->solid()) : gauge->reading(solver->current());
+		if (gauge->name == name) return solver->placed() ? gauge->reading(*solver->placed()) : gauge->reading(solver->current());
 	throw std::invalid_argument("AxialRecorder.reading: gauge = " + name + ", must be the name of one");
 }
 

@@ -48,7 +48,7 @@ Real CrackWaitController::mostAhead(GrainSolver& solver) const
 	if (softeningGrowth == 0) return std::numeric_limits<Real>::infinity();
 	const flexpm::SofteningRule rule  = { softeningGrowth, crossingSteps };
 	const auto&                 plane = solver.assembly;
-	const auto*                 solid = solver.solid();
+	const auto*                 solid = solver.placed();
 	return recorder->loading->velocityFactor
 	        * (solid ? flexpm::factor_before_softening(*solid, scene->dt, rule)
 	                 : flexpm::factor_before_softening(plane, flexpm::loading_field(plane), scene->dt, rule));

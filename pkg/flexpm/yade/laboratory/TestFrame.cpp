@@ -114,7 +114,7 @@ py::dict PartFrame::elasticState(vector<int> pressed, vector<Real> pressures, Re
 {
 	if (pressed.size() != pressures.size())
 		flexpm::refuse("pressures", Real(pressures.size()), "", "must be one for each plate that is pressed, " + std::to_string(pressed.size()));
-	if (GrainSolver::ofScene(*Omega::instance().getScene())->solid()) return solidState(pressed, pressures, way, load);
+	if (GrainSolver::ofScene(*Omega::instance().getScene())->placed()) return solidState(pressed, pressures, way, load);
 	flexpm::ElasticLoading asked { {}, driven, drivenSets, backSets, { direction[0], direction[1] }, direction[2], way, {} };
 	for (std::size_t i = 0; i < pressed.size(); ++i)
 		asked.pressures.emplace_back(pressed[i], pressures[i]);
@@ -141,7 +141,7 @@ namespace {
 
 	flexpm::SolidState& solidOf(GrainSolver& solver)
 	{
-		if (auto* state = solver.solid()) return *state;
+		if (auto* state = solver.placed()) return *state;
 		throw std::invalid_argument("AxialRecorder.frame = EndFrame, must be a RectangleFrame, DiscFrame or PartFrame for grains of the plane");
 	}
 
@@ -175,25 +175,25 @@ vector<Real> EndFrame::values(GrainSolver& solver, Real, Real) const
 
 flexpm::AxialObservation DiscFrame::observed(GrainSolver& solver) const
 {
-	const auto* state = solver.solid();
+	const auto* state = solver.placed();
 	return state ? flexpm::observe(*state, flexpm::solid_disc_frame(*state, diameter, depth)) : TestFrame::observed(solver);
 }
 
 flexpm::TestScales DiscFrame::scalesOf(GrainSolver& solver, Real dt) const
 {
-	const auto* state = solver.solid();
+	const auto* state = solver.placed();
 	return state ? flexpm::solid_disc_scales(*state, diameter, depth, dt) : TestFrame::scalesOf(solver, dt);
 }
 
 flexpm::AxialObservation PartFrame::observed(GrainSolver& solver) const
 {
-	const auto* state = solver.solid();
+	const auto* state = solver.placed();
 	return state ? flexpm::observe(*state, flexpm::part_frame(*state, solidParts())) : TestFrame::observed(solver);
 }
 
 flexpm::TestScales PartFrame::scalesOf(GrainSolver& solver, Real dt) const
 {
-	const auto* state = solver.solid();
+	const auto* state = solver.placed();
 	return state ? flexpm::solid_part_scales(*state, solidParts(), strength, dt) : TestFrame::scalesOf(solver, dt);
 }
 

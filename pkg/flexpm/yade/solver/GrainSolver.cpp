@@ -47,6 +47,13 @@ void GrainSolver::showNodes() const
 	if (isSolid()) flexpm::show_nodes(const_cast<GrainSolver*>(this)->space);
 }
 
+flexpm::SolidState* GrainSolver::placed()
+{
+	if (!isSolid()) return nullptr;
+	flexpm::show_places(space);
+	return &space;
+}
+
 void GrainSolver::takeStep()
 {
 	forEngines();

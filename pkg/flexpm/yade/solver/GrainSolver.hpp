@@ -54,15 +54,17 @@ public:
 		return isSolid() ? &space : nullptr;
 	}
 	bool isSolid() const { return space.grains.count > 0; }
-	/// Steps leave the nodes of rigid polyhedra behind; all that looks at the state from outside comes by here first.
+	/// Steps leave the nodes of rigid polyhedra behind. Who looks from outside comes by here first.
 	void showNodes() const;
-	bool holds(int place) const override;
+	/// The state in 3D for engines, which read places of nodes but no forces on them; null in 2D.
+	flexpm::SolidState* placed();
+	bool                holds(int place) const override;
 	/// Components of a vector of the grains; 0 without grains.
 	int  dimension() const { return isSolid() ? 3 : assembly.grains.count > 0 ? 2 : 0; }
 	bool hasGrains() const { return grainCount() > 0; }
 	int  grainCount() const { return isSolid() ? space.grains.count : assembly.grains.count; }
 	/// The part of the state that both dimensions have.
-	flexpm::BondedState&       state() { return solid() ? static_cast<flexpm::BondedState&>(space) : assembly; }
+	flexpm::BondedState&       state() { return placed() ? static_cast<flexpm::BondedState&>(space) : assembly; }
 	const flexpm::BondedState& state() const { return const_cast<GrainSolver*>(this)->state(); }
 	long                       stepsDone() const { return isSolid() ? space.step : assembly.step; }
 	/// @throws std::runtime_error  unless there are grains of 2D, of 3D, or any; all that Python calls goes through one of them
@@ -72,7 +74,7 @@ public:
 	/// Result of `call` with the state, of 2D or of 3D.
 	template <class Call> auto onState(Call call)
 	{
-		if (flexpm::SolidState* state = solid()) return call(*state);
+		if (flexpm::SolidState* state = placed()) return call(*state);
 		return call(assembly);
 	}
 	/// The same for who comes at each step and reads no nodes.

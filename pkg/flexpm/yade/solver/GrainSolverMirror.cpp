@@ -152,7 +152,7 @@ void GrainSolver::mirrorForces(Scene& world)
 		const Body* body = bodyOf(world, grain);
 		if (!body) continue;
 		const auto id  = body->getId();
-		const auto now = flexpm::resultant_on(grains(), grain);
+		const auto now = onState([&](const auto& state) { return flexpm::resultant_on(state, grain); });
 		// YADE adds forces up until it resets them: what the last look has left is taken off
 		changes.push_back({ id, toYade(now.force) - world.forces.getForce(id), toYade(now.moment) - world.forces.getTorque(id) });
 	}
