@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import resource
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TypeVar
 
 import yade
@@ -92,6 +92,20 @@ def set_up_rows(found: Mapping[str, float]) -> list[tuple[str, str]]:
             f"{found['peak_memory'] / 2**20:.0f} MiB",
         ),
     ]
+
+
+def scaling_rows(found: Sequence[Mapping[str, float]]) -> list[tuple[str, str]]:
+    """Describe growth as rows (name, value)."""
+    base = found[0]["time_per_grain"]
+    rows = []
+    for row in found:
+        name = f"{row['grains']} grains"
+        share = row["time_per_grain"] / base
+        step = scaled(row["step_time"], 1e6, "us")
+        each = scaled(row["time_per_grain"], 1e9, "ns", 3)
+        rows.append((name, f"{step}, {each} a grain ({share:.2f} of the first)"))
+        rows += [(f"{name}: {label}", text) for label, text in set_up_rows(row)]
+    return rows
 
 
 def _costs(timing: Timing, case: Case) -> str:

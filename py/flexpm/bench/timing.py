@@ -13,7 +13,7 @@ import math
 import os
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from statistics import median
 
@@ -51,6 +51,8 @@ _PAPER = 0.08
 _WARM_UP = 100
 #: Grains of a scaling run over those of the paper's specimen.
 SCALES = (1, 10, 40)
+#: Sizes of the boxes of one in 3D over those asked for: 1.8, 12.6 and 100 thousand grains.
+SIDES, LARGE_SIDE = (1.0, 1.92), 3.8
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,8 @@ class Plan:
         height: Height of the specimen [m].
         seed: Seed of the packing.
         threads: Threads of a step.
-        scaling: Time the flexible model also with 10 and 40 times the grains.
+        scaling: Time the flexible model also with 10 and 40 times the grains, a box with 7 times.
+        large: With `scaling` of a box also with 55 times the grains.
         shape: ``box`` for the models of a solid; None: those of the plane.
         depth: Depth of a box [m]; None: its default.
     """
@@ -74,6 +77,7 @@ class Plan:
     seed: int = 1
     threads: int = 1
     scaling: bool = False
+    large: bool = False
     shape: str | None = None
     depth: float | None = None
 
@@ -82,8 +86,8 @@ class Plan:
             raise InputError(
                 f"bench: depth = {self.depth:g} m, goes with --shape box; leave it out"
             )
-        if self.shape is not None and self.scaling:
-            raise InputError("bench: scaling goes with the plane; give the sizes of a larger box")
+        if self.large and not (self.scaling and self.shape is not None):
+            raise InputError("bench: large = True, goes with --scaling --shape box; leave it out")
 
 
 def run(
@@ -120,8 +124,11 @@ def _run_solid(plan: Plan, progress: Progress | None) -> tuple[Table, list[tuple
     )
     pair = compare_threads(specimen, plan.steps, progress, builders, "flexible")
     data = {**timing.as_dict(), "set_up": setup, "two_threads": pair}
-    rows = solids.model_rows(timing) + solids.set_up_rows(setup)
-    return data, rows + threads_rows(pair)
+    rows = solids.model_rows(timing) + solids.set_up_rows(setup) + threads_rows(pair)
+    if plan.scaling:
+        data["scaling"] = _grow_solid(plan, spec, progress)
+        rows += solids.scaling_rows(data["scaling"])
+    return data, rows
 
 
 def _run_plane(plan: Plan, progress: Progress | None) -> tuple[Table, list[tuple[str, str]]]:
@@ -238,6 +245,26 @@ def grow(plan: Plan, progress: Progress | None) -> list[dict[str, float | int]]:
         row["time_per_grain"] = case.step_time / row["grains"]
         row["bandwidth"] = memory.bytes_per_step(case.counts) / case.step_time
         row["triad"] = memory.triad()
+        found.append(row)
+    return found
+
+
+def _grow_solid(plan: Plan, spec: SolidSpec, progress: Progress | None) -> list[Table]:
+    """Time the flexible model on larger and larger boxes."""
+    found = []
+    for side in (*SIDES, LARGE_SIDE) if plan.large else SIDES:
+        sizes: Table = {name: side * size for name, size in spec.sizes.items()}
+        specimen, row = solids.timed_set_up(replace(spec, **sizes), progress)
+        timing = compare(
+            specimen,
+            steps=max(10 * TURNS, round(plan.steps / side**3)),
+            threads=plan.threads,
+            names=("flexible",),
+            builders=solid_builders(spec.kind),
+            progress=progress,
+        )
+        row["step_time"] = timing.cases[0].step_time
+        row["time_per_grain"] = row["step_time"] / row["grains"]
         found.append(row)
     return found
 

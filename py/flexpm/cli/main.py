@@ -134,7 +134,16 @@ specimen.add_command(cli_solids.solid_half_disc)
 @cli_options.rectangle_options
 @cli_options.seed_option
 @cli_options.threads_option
-@click.option("--scaling", is_flag=True, help="Time also 10 and 40 times as many grains.")
+@click.option(
+    "--scaling",
+    is_flag=True,
+    help="Time also 10 and 40 times as many grains, with --shape box 7 times as many.",
+)
+@click.option(
+    "--large",
+    is_flag=True,
+    help="With --scaling --shape box: time also 55 times as many grains, which takes half an hour.",
+)
 @click.option(
     "--json",
     "json_file",

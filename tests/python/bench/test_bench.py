@@ -195,7 +195,8 @@ def test_costs_are_told_a_grain_and_a_bond():
     assert rows["nodes, tetrahedra"] == "5, 6"
 
 
-def test_the_command_tells_of_a_box(tmp_path, capsys):
+def test_the_command_tells_of_a_box(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(bench, "SIDES", (1.0, 1.25))
     file = tmp_path / "bench.json"
     command = [
         "bench",
@@ -204,6 +205,7 @@ def test_the_command_tells_of_a_box(tmp_path, capsys):
         *SOLID_SMALL,
         "--steps",
         "10",
+        "--scaling",
         "--json",
         str(file),
         "--quiet",
@@ -213,13 +215,41 @@ def test_the_command_tells_of_a_box(tmp_path, capsys):
     assert set(data["models"]) == set(solid_builders("box"))
     assert data["specimen"]["depth"] == SIZES["depth"]
     assert "ns a grain" in text and "elastic start" in text and "two threads" in text
+    small, large = data["scaling"]
+    assert small["grains"] == data["set_up"]["grains"]
+    assert large["grains"] == pytest.approx(1.25**3 * small["grains"], rel=0.05)
+    for row in (small, large):
+        assert row["time_per_grain"] * row["grains"] == pytest.approx(row["step_time"])
+        assert f"{row['grains']} grains: set-up" in text
+    assert file.with_suffix(".png").stat().st_size > 1000
+
+
+@pytest.mark.parametrize(("large", "sides"), [(False, [1.0, 1.92]), (True, [1.0, 1.92, 3.8])])
+def test_boxes_grow_to_a_hundred_thousand_grains(monkeypatch, large, sides):
+    specs = []
+
+    def set_up(spec, progress):
+        specs.append(spec)
+        return None, {"grains": 10}
+
+    timed = bench.Timing({}, {}, 1, 1, [bench.Case("flexible", "", 0, {}, [1e-5], [1e-5])])
+    monkeypatch.setattr(solids, "timed_set_up", set_up)
+    monkeypatch.setattr(bench, "compare", lambda *given, **named: timed)
+    plan = bench.Plan(shape="box", scaling=True, large=large)
+    found = bench._grow_solid(plan, SolidSpec("box"), None)
+    assert [spec.width / 0.025 for spec in specs] == pytest.approx(sides)
+    assert [spec.volume / specs[0].volume for spec in specs] == pytest.approx(
+        [side**3 for side in sides]
+    )
+    assert [row["time_per_grain"] for row in found] == pytest.approx([1e-6] * len(sides))
 
 
 @pytest.mark.parametrize(
     ("options", "told"),
     [
         (["--depth", "0.01"], "bench: depth = 0.01 m, goes with --shape box; leave it out"),
-        (["--shape", "box", "--scaling"], "bench: scaling goes with the plane"),
+        (["--scaling", "--large"], "bench: large = True, goes with --scaling --shape box"),
+        (["--shape", "box", "--large"], "bench: large = True, goes with --scaling --shape box"),
         (["--shape", "box", "--width", "0.001"], "Specimen.box: largest diameter"),
         (["--shape", "cylinder"], "shape"),
     ],

@@ -36,7 +36,7 @@ NAMED = """--model --material --mesh --start --loading --wave --sides --control 
     --joints --name --network --phases --shape
     --models --unindexed""".split()
 #: Options that are given below, or that lead to other files, long work or other machines.
-NOT_DRAWN = """--width --height --out --quiet --steps --scaling --json --scheduler
+NOT_DRAWN = """--width --height --out --quiet --steps --scaling --large --json --scheduler
     --cluster --version""".split()
 OPTIONS = st.one_of(
     st.tuples(st.sampled_from(VALUED), NUMBERS | TEXTS),
