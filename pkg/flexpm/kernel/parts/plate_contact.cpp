@@ -29,9 +29,12 @@ double shear_force(
 {
     const double old = point.shear.x, trial = old - stiffness * slip;
     const double next = within_friction(plate, normal_force, trial);
-    const double rubs = 0.5 * (old + next) * (trial - next) / stiffness;
-    plate.friction_energy += rubs;
-    point.friction_energy += rubs;
+    if (next == trial) return next;
+    if (old != 0.0 || next != 0.0) {  // else nothing touches
+        const double rubs = 0.5 * (old + next) * (trial - next) / stiffness;
+        plate.friction_energy += rubs;
+        point.friction_energy += rubs;
+    }
     point.slip = point.slip + (next - trial) / stiffness * tangent_of(in_plane(point.normal));
     return next;
 }
@@ -96,9 +99,12 @@ EdgePoint edge_point(const Plate& p, int index)
 void update_plates(Assembly& a, double dt, double damping)
 {
     for (const Plate& plate : a.plates) {
+        int done = -1;  // points of a facet follow each other
         for (const PlatePoint& point : plate.points) {
+            if (point.facet == done) continue;
+            done = point.facet;
             for (int n = 0; n < facet_nodes; ++n) {
-                const int at = Facets::force_index(point.facet, FacetRow::of_plates, n);
+                const int at = Facets::force_index(done, FacetRow::of_plates, n);
                 set_vector(a.facets.forces, at, {});
             }
         }
