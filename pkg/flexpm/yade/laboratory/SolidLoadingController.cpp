@@ -33,6 +33,7 @@ flexpm::SolidDrive SolidLoadingController::driveOf(const flexpm::SolidState& sta
 flexpm::SolidField SolidLoadingController::fieldOf(const flexpm::SolidState& state, int threads) const
 {
 	const auto parts = driveOfParts();
+	flexpm::give_back_memory(); // what the masses have needed
 	const auto field = parts.moves_top() ? flexpm::elastic_field(state, threads) : flexpm::elastic_field(state, parts, threads);
 	flexpm::give_back_memory(); // the solution has needed as much again as the state
 	return field;
