@@ -4,12 +4,12 @@
 #pragma once
 
 #include <flexpm/kernel/assembly/assembly.hpp>
-#include <flexpm/kernel/assembly/solid_state.hpp>
 #include <flexpm/kernel/assembly/triangle_rows.hpp>
 #include <flexpm/kernel/core/mean.hpp>
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 namespace flexpm {
 
@@ -107,15 +107,15 @@ inline Resultant resultant_on(const Grains& grains, int grain)
 }
 
 /// The same of a state. In 3D a rigid grain knows its moment, whether or not its nodes are shown.
-inline Resultant resultant_on(const Assembly& a, int grain)
-{
-    return resultant_on(a.grains, grain);
-}
-inline Resultant resultant_on(const SolidState& s, int grain)
+template <class State> Resultant resultant_on(const State& s, int grain)
 {
     const Grains& grains = s.grains;
-    if (!grains.is_rigid(grain)) return resultant_on(grains, grain);
-    return { grains.vector(grains.force, grains.centre(grain)), s.bodies[grain].moment };
+    if constexpr (!std::is_same_v<State, Assembly>) {
+        if (grains.is_rigid(grain)) {
+            return { grains.vector(grains.force, grains.centre(grain)), s.bodies[grain].moment };
+        }
+    }
+    return resultant_on(grains, grain);
 }
 
 /// Numbers of contacts, without erased ones.
