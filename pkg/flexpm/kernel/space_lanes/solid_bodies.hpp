@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Motion of rigid polyhedral grains, whose turn is a quaternion. Contacts read their motions
-/// and add to their wrenches, see rigid_faces.hpp. Their nodes follow the centre and the turn when
+/// and add to their wrenches, see update_rigid_blocks(). Their nodes follow the centre and the turn when
 /// somebody looks at them, or plates or pressures act on them.
 #pragma once
 
