@@ -52,7 +52,7 @@ TEST_CASE("Forces of contacts are all that acts on grains, and leave no moment",
         double largest = 0.0, worst = 0.0, moment = 0.0;
         Vector whole;
         for (int g = 0; g < s.grains.count; ++g) {
-            const Resultant on = resultant_on(s.grains, g);
+            const Resultant on = resultant_on(s, g);
             largest = std::max(largest, norm(on.force));
             worst = std::max(worst, norm(on.force - force[g]));
             moment = std::max(moment, norm(on.moment));

@@ -155,7 +155,7 @@ TEST_CASE("Forces on the nodes of rigid grains come to the wrenches that move th
     for (int g = 0; g < s.grains.count; ++g) {
         const double* wrench = s.plan.wrenches.data() + s.grains.block_of(g) * WrenchRow::count;
         Resultant on;
-        for_each_corner_force(s.grains, g, [&](Vector f, Vector r) {
+        for_each_corner_force(s.grains, node_forces(s), g, [&](Vector f, Vector r) {
             on = { on.force + f, on.moment + cross(r, f) };
             largest = std::max(largest, norm(f));
             arm = std::max(arm, norm(r));

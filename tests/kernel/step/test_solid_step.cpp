@@ -114,7 +114,7 @@ TEST_CASE("A step in space is that of the plain stepper to round-off", "[solids]
         }) < 1e-9);
         CHECK(difference(s, plain, s.grains.velocity, [](const auto& n) { return n.velocity; })
             < 1e-9);
-        CHECK(difference(s, plain, s.grains.force, [](const auto& n) { return n.force; }) < 1e-8);
+        CHECK(difference(s, plain, node_forces(s), [](const auto& n) { return n.force; }) < 1e-8);
         CHECK(difference_of_points(s, plain) < 1e-9);
         for (std::size_t g = 0; g < s.bodies.size(); ++g) {
             const RigidBody& body = s.bodies[g];

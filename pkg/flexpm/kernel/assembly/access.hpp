@@ -89,33 +89,35 @@ struct Resultant {
 inline Resultant resultant_on(const Grains& grains, int grain)
 {
     const int centre = grains.centre(grain);
+    // in 3D the centre of a rigid grain holds the sum, and the state its moment
+    if (grains.layout.dimension == 3 && grains.is_rigid(grain))
+        return { grains.vector(grains.force, centre), {} };
     const Vector middle = grains.position(centre);
-    // in 3D the centre of a rigid grain holds the sum, with its weight
-    const bool is_sum = grains.layout.dimension == 3 && grains.is_rigid(grain);
     Resultant sum;
     for (int n = 0; n < grains.nodes_of(grain); ++n) {
         const int node = grains.node(grain, n);
         const Vector force = grains.vector(grains.force, node);
-        if (is_sum && node == centre) {
-            sum.force = force;
-            continue;
-        }
         sum.force = sum.force + force;
         sum.moment = sum.moment + cross(grains.position(node) - middle, force);
     }
     return sum;
 }
 
-/// The same of a state. In 3D a rigid grain knows its moment, whether or not its nodes are shown.
+/// The same of a state.
 template <class State> Resultant resultant_on(const State& s, int grain)
 {
-    const Grains& grains = s.grains;
-    if constexpr (!std::is_same_v<State, Assembly>) {
-        if (grains.is_rigid(grain)) {
-            return { grains.vector(grains.force, grains.centre(grain)), s.bodies[grain].moment };
-        }
-    }
-    return resultant_on(grains, grain);
+    Resultant on = resultant_on(s.grains, grain);
+    if constexpr (!std::is_same_v<State, Assembly>)
+        if (s.grains.is_rigid(grain)) on.moment = s.bodies[grain].moment;
+    return on;
+}
+
+/// Forces on nodes, with those of contacts, as show_nodes() has left them for rigid grains in 3D.
+template <class State> const Array<double>& node_forces(const State& s)
+{
+    if constexpr (!std::is_same_v<State, Assembly>)
+        if (!s.plan.shown_forces.empty()) return s.plan.shown_forces;
+    return s.grains.force;
 }
 
 /// Numbers of contacts, without erased ones.

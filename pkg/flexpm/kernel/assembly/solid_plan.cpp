@@ -278,6 +278,7 @@ void prepare_step(SolidState& s)
     if (!s.is_rigid()) return;
     find_rigid_faces(s);
     find_node_loads(s);
+    s.plan.forces_behind = true;  // a saved state has none
 }
 
 }  // namespace flexpm

@@ -365,8 +365,10 @@ struct SolidPlan {
     // Rigid grains: contacts read their motions and add to their wrenches, so that a step leaves
     // their nodes behind, see show_places() and show_nodes(). Nodes on which plates or pressures act
     // go on with them.
-    bool places_behind = false;            ///< places of nodes are those of an earlier step
-    bool forces_behind = false;            ///< forces on nodes are
+    bool places_behind = false;  ///< places of nodes are those of an earlier step
+    bool forces_behind = false;  ///< shown_forces are
+    /// On nodes, with those of contacts, of which Grains::force of rigid grains has none [N].
+    Array<double> shown_forces;
     std::vector<std::uint8_t> node_loads;  ///< 1 of blocks of grains on whose nodes something acts
     std::vector<BodyPlace> body_places;    ///< of each block of grains
     Array<double> motions;                 ///< [block of grains][RigidMotionRow]

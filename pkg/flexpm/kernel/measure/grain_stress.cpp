@@ -38,11 +38,12 @@ double cell_area(const Grains& grains, int grain)
     return polygon_shape(corners).area;
 }
 
-SpaceTensor mean_stress(const Grains& grains, int grain, const SpaceTensor& sum, double volume)
+SpaceTensor mean_stress(const Grains& grains, const Array<double>& forces, int grain,
+    const SpaceTensor& sum, double volume)
 {
     if (!grains.is_rigid(grain)) return over(grains, sum, volume);
     SpaceTensor total {};
-    for_each_corner_force(grains, grain, [&](Vector force, Vector arm) {
+    for_each_corner_force(grains, forces, grain, [&](Vector force, Vector arm) {
         total = sum_of(total, 1.0, over(grains, product_of(force, arm), volume));
     });
     return total;

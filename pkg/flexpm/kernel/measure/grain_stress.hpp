@@ -64,12 +64,16 @@ template <class Visit> void for_each_element(const SolidState& s, int grain, Vis
 
 /// Call visit(force, arm) for each corner of a grain: the force on it [N], and its place from the
 /// centre [m].
-template <class Visit> void for_each_corner_force(const Grains& grains, int grain, Visit visit)
+///
+/// @param forces  of the state, see node_forces()
+template <class Visit>
+void for_each_corner_force(
+    const Grains& grains, const Array<double>& forces, int grain, Visit visit)
 {
     const Vector centre = grains.position(grains.centre(grain));
     for (int n = 0; n < grains.vertices_of(grain); ++n) {
         const int node = grains.node(grain, n);
-        visit(grains.vector(grains.force, node), grains.position(node) - centre);
+        visit(grains.vector(forces, node), grains.position(node) - centre);
     }
 }
 
@@ -89,7 +93,8 @@ struct GrainStress {
 };
 
 /// The mean over the volume of a sum of stresses times volumes, or of the forces on a rigid grain.
-SpaceTensor mean_stress(const Grains& grains, int grain, const SpaceTensor& sum, double volume);
+SpaceTensor mean_stress(const Grains& grains, const Array<double>& forces, int grain,
+    const SpaceTensor& sum, double volume);
 
 /// The same, with visit(element) for each element.
 template <class State, class Visit> GrainStress grain_stress(const State& s, int grain, Visit visit)
@@ -102,7 +107,7 @@ template <class State, class Visit> GrainStress grain_stress(const State& s, int
     });
     if constexpr (std::is_same_v<State, Assembly>)
         if (s.grains.is_rigid(grain)) mean.volume = s.volume_of(cell_area(s.grains, grain));
-    mean.stress = mean_stress(s.grains, grain, mean.stress, mean.volume);
+    mean.stress = mean_stress(s.grains, node_forces(s), grain, mean.stress, mean.volume);
     return mean;
 }
 

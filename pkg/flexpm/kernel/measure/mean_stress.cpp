@@ -130,7 +130,7 @@ template <class State> Balance balance(const State& s)
         if (!s.grains.is_rigid(g)) continue;
         // forces on a rigid grain, which its shape carries from corner to corner
         for_each_corner_force(
-            s.grains, g, [&](Vector force, Vector arm) { inside.add(force, arm); });
+            s.grains, node_forces(s), g, [&](Vector force, Vector arm) { inside.add(force, arm); });
         if constexpr (std::is_same_v<State, Assembly>)
             inside.volume += s.volume_of(cell_section(s.grains, g).area);
     }

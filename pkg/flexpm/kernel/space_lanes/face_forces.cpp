@@ -73,7 +73,7 @@ int update_face_blocks(SolidState& s, int first, int end, double dt)
     return update_blocks<NodeFaces>(s, first, end, dt);
 }
 
-void add_node_forces(SolidState& s)
+void add_node_forces(const SolidState& s, double* force)
 {
     const auto hold = variant_of<hold_block<FaceLanes, false>, hold_block<FaceLanes, true>>();
     const auto update = variant_of<update_block<FaceLanes, false>, update_block<FaceLanes, true>>();
@@ -82,7 +82,7 @@ void add_node_forces(SolidState& s)
     for (int block = 0; block < c.blocks(); ++block) {
         if (block == 0 || c.laws.size() > 1) laws.fill(c, block);
         const FaceLanes b = face_lanes(s, block, laws);
-        const FaceForces forces { s.grains.force.data(), nullptr };
+        const FaceForces forces { force, nullptr };
         if (c.states[block].empty() && hold(b, forces)) continue;
         Array<double> states = c.states[block].empty()
             ? NodeFaces::first_states(s, block, laws, 0.0)

@@ -14,6 +14,8 @@ int update_face_blocks(SolidState& s, int first, int end, double dt);
 
 /// Add the forces of all contacts at the present places to those on the nodes of their corners. No
 /// state changes.
-void add_node_forces(SolidState& s);
+///
+/// @param force  of nodes, as Grains::force
+void add_node_forces(const SolidState& s, double* force);
 
 }  // namespace flexpm

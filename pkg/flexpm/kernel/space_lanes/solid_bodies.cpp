@@ -38,7 +38,7 @@ struct TurnColumns {
     Vector x, y, z;
 };
 
-/// Displacements of all nodes, for a way of the centre.
+/// Displacements of all nodes but the centre, for a way of that.
 FLEXPM_INLINE void place_nodes(
     const BodyNodes& b, Vector way, const TurnColumns& turn, double* displacement)
 {
@@ -46,7 +46,7 @@ FLEXPM_INLINE void place_nodes(
     const Four middle = row_of_four(b.reference + b.vertices * stride);
     const Four to { way.x, way.y, way.z, 0.0 }, of_x { turn.x.x, turn.x.y, turn.x.z, 0.0 },
         of_y { turn.y.x, turn.y.y, turn.y.z, 0.0 }, of_z { turn.z.x, turn.z.y, turn.z.z, 0.0 };
-    for (int n = 0; n <= b.vertices; ++n) {
+    for (int n = 0; n < b.vertices; ++n) {
         const Four arm = row_of_four(b.reference + n * stride) - middle;
         const Four x = __builtin_shufflevector(arm, arm, 0, 0, 0, 0);
         const Four y = __builtin_shufflevector(arm, arm, 1, 1, 1, 1);
@@ -179,6 +179,17 @@ BodyMotion motion_of(const SolidState& s, int grain)
     return { space_vector(s.grains.displacement, s.grains.centre(grain)), s.bodies[grain].turn };
 }
 
+/// Put all nodes of a rigid grain but the centre where centre and turn are. A window may ask for it
+/// while a step is under way, so nothing is written that a step reads.
+void place_vertices(SolidState& s, int grain, Vector way)
+{
+    const Quaternion& turn = s.bodies[grain].turn;
+    const TurnColumns columns { turned_by(turn, { 1.0, 0.0, 0.0 }),
+        turned_by(turn, { 0.0, 1.0, 0.0 }), turned_by(turn, { 0.0, 0.0, 1.0 }) };
+    double* displacement = s.grains.displacement.data() + s.grains.node(grain, 0);
+    variant_of<place_nodes>()(body_nodes(s, grain), way, columns, displacement);
+}
+
 /// Leave no force on the nodes of a block.
 void clear_nodes(Grains& grains, int block)
 {
@@ -198,7 +209,7 @@ void move_body(SolidState& s, int block, double dt)
     body.turn = normalized(scaled_rotation_by(dt * body.spin) * body.turn);
     set_space_vector(grains.displacement, centre, way);
     write_motion({ way, body.turn }, s.plan.motions.data() + block * RigidMotionRow::count);
-    if (s.plan.node_loads[block] != 0) place_body(s, grain, way);
+    if (s.plan.node_loads[block] != 0) place_vertices(s, grain, way);
 }
 
 void prefetch_body(const SolidState& s, int block)
@@ -277,7 +288,7 @@ void show_places(SolidState& s)
     for (int block = 0; block < s.grains.blocks(); ++block) {
         const auto [grain, centre] = s.plan.body_places[block];
         if (s.plan.node_loads[block] == 0)
-            place_body(s, grain, space_vector(s.grains.displacement, centre));
+            place_vertices(s, grain, space_vector(s.grains.displacement, centre));
     }
 }
 
@@ -286,14 +297,9 @@ void show_nodes(SolidState& s)
     show_places(s);
     if (!s.plan.forces_behind) return;
     s.plan.forces_behind = false;
-    for (int block = 0; block < s.grains.blocks(); ++block) {
-        if (s.plan.node_loads[block] != 0) continue;
-        const int centre = s.plan.body_places[block].centre;
-        const Vector force = space_vector(s.grains.force, centre);
-        clear_nodes(s.grains, block);
-        set_space_vector(s.grains.force, centre, force);
-    }
-    add_node_forces(s);
+    Array<double>& forces = s.plan.shown_forces;
+    forces = s.grains.force;
+    add_node_forces(s, forces.data());
 }
 
 void write_motion(const BodyMotion& motion, double* to)
@@ -313,11 +319,8 @@ BodyMotion motion_before(const SolidState& s, int grain, double dt)
 
 void place_body(SolidState& s, int grain, Vector way)
 {
-    const Quaternion& turn = s.bodies[grain].turn;
-    const TurnColumns columns { turned_by(turn, { 1.0, 0.0, 0.0 }),
-        turned_by(turn, { 0.0, 1.0, 0.0 }), turned_by(turn, { 0.0, 0.0, 1.0 }) };
-    double* displacement = s.grains.displacement.data() + s.grains.node(grain, 0);
-    variant_of<place_nodes>()(body_nodes(s, grain), way, columns, displacement);
+    set_space_vector(s.grains.displacement, s.grains.centre(grain), way);
+    place_vertices(s, grain, way);
 }
 
 Vector displacement_before(const SolidState& s, int grain, int node, double dt)

@@ -37,7 +37,8 @@ void leave_nodes_behind(SolidState& s);
 /// Put the nodes of rigid grains where these are, if a step has left them behind.
 void show_places(SolidState& s);
 
-/// The same, and the forces on them.
+/// The same, and sum the forces on them with those of contacts to SolidPlan::shown_forces. Neither
+/// writes anything that a step reads.
 void show_nodes(SolidState& s);
 
 /// Motion of a rigid grain since the reference.

@@ -60,7 +60,7 @@ template <class State> GrainStress add_grain(const State& s, int grain, int firs
         push_vector(grains, to.positions, grains.position(node));
         push_vector(grains, to.reference, grains.vector(grains.reference, node));
         push_vector(grains, to.velocities, velocity_of(s, grain, node));
-        push_vector(grains, to.forces, grains.vector(grains.force, node));
+        push_vector(grains, to.forces, grains.vector(node_forces(s), node));
     }
     int added = 0;
     const GrainStress mean = grain_stress(s, grain, [&](const auto& element) {

@@ -8,6 +8,8 @@ namespace yade {
 
 AssemblyOwner::~AssemblyOwner() = default;
 
+void OwnedAssembly::showNodes() const { dynamic_cast<const AssemblyOwner&>(*engine).showNodes(); }
+
 OwnedAssembly findAssembly(const Scene& scene)
 {
 	for (const auto& engine : scene.engines) {
@@ -24,6 +26,7 @@ OwnedAssembly assemblyOf(const Scene& scene)
 {
 	auto found = findAssembly(scene);
 	if (!found.engine) throw std::runtime_error("GrainSolver: O.engines = none with grains, must hold one; build the specimen first (flexpm.build)");
+	found.showNodes();
 	return found;
 }
 

@@ -29,6 +29,7 @@ void Bo1_LaguerreCell_Aabb::go(const shared_ptr<Shape>& shape, shared_ptr<Bound>
 	const auto owned = findAssembly(*scene);
 	// an exception would not leave YADE's parallel loop; without a bound the collider passes over the body
 	if (!owned.engine || grain < 0 || grain >= owned.grains().count) return reportOnce(grain, body->getId());
+	owned.showNodes();
 	const auto& grains = owned.grains();
 	if (!bound) bound = boost::make_shared<Aabb>();
 	const Vector3r centre = toYade(grains.position(grains.centre(grain)));

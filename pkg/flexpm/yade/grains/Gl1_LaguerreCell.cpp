@@ -114,6 +114,7 @@ namespace {
 
 	void beginPicture(const OwnedAssembly& owned)
 	{
+		owned.showNodes();
 		if (owned.space) {
 			shown.edges  = flexpm::polyhedron_edges(*owned.space);
 			shown.window = Window::present();

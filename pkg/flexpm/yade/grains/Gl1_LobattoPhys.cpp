@@ -41,12 +41,13 @@ namespace {
 			toViewer  = Gl1_LaguerreCell::toViewer();
 		}
 
-		template <class State> void update(const State& state, int contact)
+		template <class State> void update(const OwnedAssembly& owned, const State& state, int contact)
 		{
 			if (of == &state.grains && contact != first && step == long(state.step)) return;
-			of      = &state.grains;
-			first   = contact;
-			step    = long(state.step);
+			of    = &state.grains;
+			first = contact;
+			step  = long(state.step);
+			owned.showNodes();
 			largest = flexpm::largest_contact_force(state);
 			look(state);
 		}
@@ -129,7 +130,7 @@ void Gl1_LobattoPhys::go(const shared_ptr<IPhys>& phys, const shared_ptr<Interac
 	glPushAttrib(GL_ENABLE_BIT);
 	glDisable(GL_CULL_FACE); // faces of cracks are seen from both sides
 	owned.with([&](const auto& state) {
-		picture.update(state, contact);
+		picture.update(owned, state, contact);
 		if (forces) drawForce(state, place);
 		if (cracks) drawCracks(state, place);
 	});

@@ -48,6 +48,14 @@ namespace {
 		return flexpm_bindings::copied(all, 3, Access::readOnly);
 	}
 
+	py::object nodeCopy(const flexpm::Grains& grains, int grain, const flexpm::Array<double>& values)
+	{
+		return nodeCopy(grains, grain, [&](int node) { return grains.vector(values, node); });
+	}
+
+	/// The nodes of a rigid polyhedron follow from its motion: scripts get copies of what they have.
+	bool isRigidPolyhedron(const OwnedAssembly& owned, int grain) { return owned.space && owned.space->grains.is_rigid(grain); }
+
 	/// Call visit(nodes) for each tetrahedron of a grain with the numbers of its nodes, the centre first.
 	template <class Visit> void forEachTetrahedron(const flexpm::SolidState& state, int grain, Visit visit)
 	{
@@ -71,17 +79,27 @@ py::object LaguerreCell::positions() const
 	return nodeView(owned, grain, owned.plane->plan.shown_position, Access::readOnly);
 }
 
-py::object LaguerreCell::displacements() const { return nodeView(grain, &flexpm::Grains::displacement, Access::readWrite); }
+py::object LaguerreCell::displacements() const
+{
+	const auto owned = assemblyOfGrain(grain);
+	if (isRigidPolyhedron(owned, grain)) return nodeCopy(owned.space->grains, grain, owned.space->grains.displacement);
+	return nodeView(owned, grain, owned.grains().displacement, Access::readWrite);
+}
 
 py::object LaguerreCell::velocities() const
 {
 	const auto owned = assemblyOfGrain(grain);
-	if (owned.space && owned.space->grains.is_rigid(grain))
+	if (isRigidPolyhedron(owned, grain))
 		return nodeCopy(owned.space->grains, grain, [&](int node) { return flexpm::node_velocity(*owned.space, grain, node); });
 	return nodeView(owned, grain, owned.grains().velocity, Access::readWrite);
 }
 
-py::object LaguerreCell::forces() const { return nodeView(grain, &flexpm::Grains::force, Access::readOnly); }
+py::object LaguerreCell::forces() const
+{
+	const auto owned = assemblyOfGrain(grain);
+	if (isRigidPolyhedron(owned, grain)) return nodeCopy(owned.space->grains, grain, flexpm::node_forces(*owned.space));
+	return nodeView(owned, grain, owned.grains().force, Access::readOnly);
+}
 
 py::object LaguerreCell::held() const { return nodeView(grain, &flexpm::Grains::prescribed, Access::readWrite); }
 

@@ -12,6 +12,7 @@
 #include <flexpm/kernel/topology/loose_grains.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
+#include <mutex>
 #include <utility>
 
 namespace yade {
@@ -42,14 +43,24 @@ void GrainSolver::preSave(GrainSolver&)
 	showNodes();
 }
 
+namespace {
+
+	/// A window and scripts may look while an engine does.
+	std::mutex looking;
+
+} // namespace
+
 void GrainSolver::showNodes() const
 {
-	if (isSolid()) flexpm::show_nodes(const_cast<GrainSolver*>(this)->space);
+	if (!isSolid()) return;
+	const std::lock_guard<std::mutex> lock(looking);
+	flexpm::show_nodes(const_cast<GrainSolver*>(this)->space);
 }
 
 flexpm::SolidState* GrainSolver::placed()
 {
 	if (!isSolid()) return nullptr;
+	const std::lock_guard<std::mutex> lock(looking);
 	flexpm::show_places(space);
 	return &space;
 }

@@ -48,14 +48,9 @@ public:
 	void preSave(GrainSolver&);
 
 	flexpm::Assembly*   assembled() override { return assembly.grains.count > 0 ? &assembly : nullptr; }
-	flexpm::SolidState* solid() override
-	{
-		showNodes();
-		return isSolid() ? &space : nullptr;
-	}
-	bool isSolid() const { return space.grains.count > 0; }
-	/// Steps leave the nodes of rigid polyhedra behind. Who looks from outside comes by here first.
-	void showNodes() const;
+	flexpm::SolidState* solid() override { return isSolid() ? &space : nullptr; }
+	bool                isSolid() const { return space.grains.count > 0; }
+	void                showNodes() const override;
 	/// The state in 3D for engines, which read places of nodes but no forces on them; null in 2D.
 	flexpm::SolidState* placed();
 	bool                holds(int place) const override;
