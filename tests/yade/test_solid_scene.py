@@ -118,6 +118,28 @@ def broken(solid, request):
     return model
 
 
+@pytest.mark.parametrize("name", MODELS)
+def test_bonds_and_nodes_are_those_of_the_last_step_wherever_a_run_stops(solid, name):
+    model = solid(name, velocity=PULL)
+    model.run(34)
+    for _ in range(3):  # between two checks
+        O.step()
+
+    def bonded():
+        return [(tuple(one.geom.contactPoint), tuple(one.phys.normalForce)) for one in bonds()]
+
+    shown = bonded()
+    model.solver.mirrorBodies()
+    assert bonded() == shown
+    cell = O.bodies[0].shape
+    kept = cell.positions.copy()
+    model.run(13)
+    state = model.snapshot()
+    assert (cell.positions == state.positions[: len(kept)]).all()
+    assert (cell.forces == state.forces[: len(kept)]).all()
+    assert (cell.positions != kept).any()
+
+
 def test_bonds_show_their_points(broken):
     state = broken.snapshot()
     law = broken.material.law(broken.name)

@@ -126,6 +126,7 @@ namespace {
 
 void GrainSolver::mirrorBonds(const Scene& world)
 {
+	showNodes();
 	forEachBond(world, [&](LobattoGeom& geom, LobattoPhys& phys) {
 		const int place = contactAt(own(), phys.contact);
 		if (place >= 0) return mirrorBond(own(), place, geom, phys);
