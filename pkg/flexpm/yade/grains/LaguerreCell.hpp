@@ -32,9 +32,9 @@ public:
 		((int, grain, -1, Attr::readonly, "Number of the grain in the solver [-]."))
 		, createIndex();
 		, .add_property("positions", &LaguerreCell::positions, "Node positions, (n, d) [m]; read-only, a copy in space.")
-		.add_property("displacements", &LaguerreCell::displacements, "Node displacements from the bonded state, (n, d) [m]; those of a rigid polyhedron follow its motion.")
+		.add_property("displacements", &LaguerreCell::displacements, "Node displacements from the bonded state, (n, d) [m]; of a rigid polyhedron a copy, read-only.")
 		.add_property("velocities", &LaguerreCell::velocities, "Node velocities, (n, d) [m/s, or m per step with scaled masses]; of a rigid polyhedron a copy, read-only.")
-		.add_property("forces", &LaguerreCell::forces, "Nodal forces of the last step without damping, (n, d) [N]; at the centre of a rigid polyhedron the sum of the others.")
+		.add_property("forces", &LaguerreCell::forces, "Nodal forces of the last step without damping, (n, d) [N]; of a rigid polyhedron a copy, with the sum of the others at the centre.")
 		.add_property("held", &LaguerreCell::held, "1 where the velocity component is prescribed, (n, d) [-]; of a rigid grain the centre's counts.")
 		.add_property("triangles", &LaguerreCell::triangles, "Node numbers of each triangle, counter-clockwise; of a polyhedron those of its faces, seen from outside.")
 		.add_property("tetrahedra", &LaguerreCell::tetrahedra, "Node numbers of each tetrahedron, the centre first; none in the plane.")
