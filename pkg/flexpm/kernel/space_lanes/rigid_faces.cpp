@@ -189,7 +189,8 @@ FLEXPM_INLINE bool hold_points(const RigidFaceLanes& b, RigidFaceMotion& m)
                 dot(spread.x, spread.x) + dot(spread.y, spread.y) + dot(spread.z, spread.z));
         const double opening = dot(way, normal);
         const double slip = std::sqrt(std::fabs(dot(way, way) - opening * opening)) + more;
-        leaves[l] = (m.area[l] > 0.0) & holds_intact(law, opening + more, slip * slip) ? 0 : 1;
+        const bool holds = (m.area[l] > 0.0) & holds_intact(law, opening + more, slip * slip);
+        leaves[l] = holds ? 0 : 1;
     }
     if (!any_of(leaves)) return true;
     FLEXPM_INDEPENDENT
