@@ -252,7 +252,7 @@ void sum_body_forces(SolidState& s, int block) { forces_on_body(s, block); }
 void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& sums)
 {
     Grains& grains = s.grains;
-    const auto [grain, centre] = s.plan.body_places[block];
+    const int grain = s.plan.body_places[block].grain, centre = s.plan.body_places[block].centre;
     const Vector moment = forces_on_body(s, block).moment;
     const double inverse_mass = grains.inverse_mass[grains.scalar_index(centre)];
     const Array<double>& undamped = s.undamped().velocity;
