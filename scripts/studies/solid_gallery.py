@@ -2,7 +2,7 @@
 """Picture of six 3D tests for the gallery of the manual: outside and section of each.
 
 Runs each test by the command `flexpm`, and puts the pictures `outside.png` of its folders together.
-Tests whose folder is there are not run again. All of them take about half an hour on one core:
+Tests whose folder is there are not run again.
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/studies/solid_gallery.py FOLDER [PICTURE]
 """

@@ -142,7 +142,7 @@ specimen.add_command(cli_solids.solid_half_disc)
 @click.option(
     "--large",
     is_flag=True,
-    help="With --scaling --shape box: time also 55 times as many grains, which takes half an hour.",
+    help="With --scaling --shape box: time also 55 times as many grains, packed in minutes.",
 )
 @click.option(
     "--json",
