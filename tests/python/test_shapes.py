@@ -6,7 +6,6 @@ from __future__ import annotations
 import copy
 import datetime
 import math
-import time
 from pathlib import Path
 
 import numpy as np
@@ -252,9 +251,7 @@ def test_the_name_of_a_calibration_stays_in_its_folder(capsys, tmp_path, name):
 
 def test_too_many_runs_are_refused_with_their_number(capsys, tmp_path):
     content = {"grid": {"test": ["uniaxial"], "seed": [1] * 1000, "rate": [1.0] * 1000}}
-    begin = time.monotonic()
     assert "runs = 1000000, must be <=" in refused(capsys, tmp_path / "it.toml", content)
-    assert time.monotonic() - begin < 5.0
 
 
 def test_too_many_minerals_are_refused_with_their_number(capsys, tmp_path):

@@ -94,6 +94,7 @@ class Progress:
         self._lined = not (self._shown or quiet)
         self._last: tuple[float, float, str] | None = None
         self._begin, self._over = time.monotonic(), threading.Event()
+        self._writer = threading.Thread(target=self._lines, daemon=True)
 
     def __call__(self, done: float, expected: float, text: str = "") -> None:
         """Show that `done` of about `expected` are done; `text` says what is going on.
@@ -159,7 +160,7 @@ class Progress:
 
     def __enter__(self) -> Progress:
         if self._lined:
-            threading.Thread(target=self._lines, daemon=True).start()
+            self._writer.start()
         return self
 
     def __exit__(
@@ -169,4 +170,6 @@ class Progress:
         trace: TracebackType | None,
     ) -> None:
         self._over.set()
+        if self._lined:
+            self._writer.join()  # else a line that was due just now would come after the end
         self.close()

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import threading
 import time
 
 import pytest
@@ -52,12 +53,34 @@ def test_a_quiet_command_tells_none(tmp_path, capsys):
 
 
 def test_what_reports_seldom_is_told_all_the_same(capsys):
+    lines = []
+
+    def waited_for(ending: str, times: int) -> None:
+        latest = time.monotonic() + 60.0
+        while sum(one.endswith(ending) for one in lines) < times:
+            assert time.monotonic() < latest, lines
+            time.sleep(0.001)
+            lines.extend(told(capsys))
+
     with terminal.Progress(unit="sets") as progress:
-        time.sleep(0.05)
+        waited_for(": working", 1)
         progress(3, 16, "calibrating")
-        time.sleep(0.07)
-    lines = told(capsys)
-    assert lines[0].endswith(": working")
-    assert sum(one.endswith(": calibrating, 3 of about 16 sets, 19 %") for one in lines) >= 2
-    time.sleep(0.05)
+        waited_for(": calibrating, 3 of about 16 sets, 19 %", 2)
+
+
+def test_no_line_comes_after_the_end(capsys, monkeypatch):
+    monkeypatch.setattr(terminal, "LINES_EVERY", 0.0)
+    begun, ended = threading.Event(), threading.Event()
+    write = terminal.Progress._line
+
+    def slow(progress):
+        begun.set()
+        ended.wait(0.05)  # the end comes while a line is being made
+        return write(progress)
+
+    monkeypatch.setattr(terminal.Progress, "_line", slow)
+    with terminal.Progress():
+        begun.wait()
+    assert told(capsys)
+    ended.wait(0.2)
     assert told(capsys) == []
