@@ -105,6 +105,7 @@ def made() -> dict[str, Any]:
     from flexpm.materials.interface import KEYS
     from flexpm.materials.keys import CHOICES, JOINT_UNITS, UNITS
     from flexpm.models.options import MESHES, MODELS, POINTS
+    from flexpm.renamed import ATTRIBUTES
     from flexpm.results.result import OF_SOLIDS, Result
     from flexpm.results.result_checks import STATUSES
     from flexpm.runs.groups import DECLARED, OWN_OPTIONS, STARTS
@@ -114,6 +115,8 @@ def made() -> dict[str, Any]:
     from flexpm.specimens.spec import SIZES, SpecimenSpec
 
     result = fields_of(Result, ("curve", "cracks", "emission", "snapshot", "resumed_at"))
+    for old, new in ATTRIBUTES["Result"].items():
+        result[old] = result[new] | described(f"Old name of `{new}`, removed in 0.4")
     result["warnings"] = {"type": "array", "items": TEXT}
     run = fields_of(RunInputs, ("own",))
     for name, one in DECLARED.items():

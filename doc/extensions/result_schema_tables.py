@@ -91,14 +91,19 @@ OWN_INPUTS = needed(
             "object", "Of flexpm.rig: the test with the same ends, and whether they pull"
         ),
         "parts": rows(
-            needed("part", "place"),
-            "Of flexpm.PartRig: plates, then held nodes, by their numbers",
+            needed("part", "position", "place"),
+            "Of flexpm.PartRig: plates, then held nodes, by their numbers; place is the old name "
+            "of position, removed in 0.4",
         ),
         "drive": entry(
             "object", "Which parts load and hold; area [m2] and length [m] of stress and strain"
         ),
         "gauges": rows(needed("gauge", "direction")),
-        "stages": rows(needed("stage"), "What was done, in order, with the steps at both ends"),
+        "stages": rows(
+            needed("stage"),
+            "What was done, in order, with the steps at both ends; crossings is the old name of "
+            "transits, removed in 0.4",
+        ),
         "doubts": rows(entry("string"), "Warnings of the rig, see rig.warnings"),
     },
 }
@@ -200,8 +205,11 @@ TABLES: Entry = {
             reference("joint_cut"), "What came of the lines of each joint, by its name"
         ),
         "networks": named(
-            table({"asked": entry("number"), "drawn": entry("number"), "cut": entry("number")}),
-            "P21 asked for, drawn and cut of each set of traces, by its joint [1/m]",
+            table(
+                {name: entry("number") for name in ("target", "generated", "cut", "asked", "drawn")}
+            ),
+            "P21 requested, generated and cut of each set of traces, by its joint [1/m]; "
+            "asked and drawn are old names of target and generated, removed in 0.4",
         ),
         "rates": entry(
             ["array", "null"],

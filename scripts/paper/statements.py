@@ -179,13 +179,15 @@ STATEMENTS = [
         "The rigid model has two slopes, the flexible one (9): modulus at 80 % of the peak over "
         "that at 20 %, flexible above rigid",
         "fig09",
-        both_laws(judge.above, measure="late_modulus", more=FLEXIBLE, less=RIGID),
+        both_laws(judge.above, measure="tangent_modulus_ratio", more=FLEXIBLE, less=RIGID),
     ),
     Statement(
         "4.3.1",
         "The two slopes are less distinct when bilinear (9): the same, bilinear above brittle",
         "fig09",
-        partial(judge.above, measure="late_modulus", more=BILINEAR, less=BRITTLE, where=RIGID),
+        partial(
+            judge.above, measure="tangent_modulus_ratio", more=BILINEAR, less=BRITTLE, where=RIGID
+        ),
     ),
     Statement(
         "4.3.1",

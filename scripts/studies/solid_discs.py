@@ -146,7 +146,7 @@ def solved(specimen: SolidSpecimen, facet: str) -> tuple[SolidSnapshot, float]:
         nearest = places[np.argmin(np.sum((places - at) ** 2, axis=1))]
         rig.hold(ball=(tuple(nearest), near), axes=axes)
     rig.drive([high], (0.0, 0.0, -1.0), against=[low])
-    state = rig.elastic(way=1e-9)
+    state = rig.elastic(displacement=1e-9)
     return state, state.load
 
 

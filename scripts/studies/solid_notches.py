@@ -92,7 +92,7 @@ def on_rollers(rig: SolidPartRig, deep: float) -> float:
     ends = [rig.support((middle + side * SPAN / 2, 0.5 * deep, 0.0)) for side in (-1, 1)]
     head = rig.support((middle, 0.5 * deep, HEIGHT), pinned=True)
     rig.drive([head], (0.0, 0.0, -1.0), against=ends)
-    solution = rig.elastic(way=1e-9)
+    solution = rig.elastic(displacement=1e-9)
     return solution.load / solution.way
 
 

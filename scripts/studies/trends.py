@@ -47,7 +47,7 @@ class Run(NamedTuple):
     seed: int
     peak_stress: float  #: [Pa]
     peak_strain: float  #: [-]
-    late_modulus: float  #: modulus around 80 % of the peak over that around 20 % [-]
+    tangent_modulus_ratio: float  #: modulus around 80 % of the peak over that around 20 % [-]
     tensile_cracks: int
     shear_cracks: int
     steps: int
@@ -87,7 +87,7 @@ def run(
         seed,
         result.peak_stress or float("nan"),
         result.peak_strain or float("nan"),
-        result.late_modulus if result.late_modulus is not None else float("nan"),
+        result.tangent_modulus_ratio if result.tangent_modulus_ratio is not None else float("nan"),
         result.tensile_cracks,
         result.shear_cracks,
         result.steps,

@@ -33,7 +33,7 @@ rig.platen(0, bonded=True)
 lid = rig.platen(2)
 rig.drive(lower, (1, 0), against=upper, area=width * 0.02, strength=law["cohesion"])
 rig.gauge("slip", (width / 2, 0.6 * height), (width / 2, 0.4 * height), along=(1, 0))
-rig.way_of("dilation", lid, (0, 1))
+rig.displacement_of("dilation", lid, (0, 1))
 
 # The lid first, then the lower half's way of 0.1 mm.
 rig.press(lid, pressure)

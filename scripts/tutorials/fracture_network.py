@@ -45,7 +45,7 @@ for row, dip in enumerate(dips):
     p21 = cut.network_intensities()["joints"]
     mean, scatter = strengths[row].mean() / 1e6, strengths[row].std(ddof=1) / 1e6
     told = f"dip {dip:2} degrees: strength {mean:5.1f} +- {scatter:4.1f} MPa"
-    print(f"{told}, P21 asked {p21['asked']:.0f}, of the last {p21['drawn']:.0f} 1/m")
+    print(f"{told}, P21 target {p21['target']:.0f}, of the last {p21['generated']:.0f} 1/m")
 
 print(f"slow enough, by the status: {slow} of {strengths.size} runs")
 

@@ -25,7 +25,7 @@ for dip in (phi - 1.0, phi + 2.0, phi + 10.0):
     rig = flexpm.PartRig(built)
     rig.hold(where=lambda x, y: y < 0.25 * side + slope * x - 1e-6)  # noqa: B023
     steep = dip > phi
-    rig.settle(moving=steep, crossings=5 if steep else 100)
+    rig.settle(moving=steep, transits=5 if steep else 100)
     block = yade.O.bodies[built.solver.bodyIds[int(specimen.centres[:, 1].argmax())]].state
     start, speed = block.pos[0], -block.vel[0]
     steps = round(time / yade.O.dt)

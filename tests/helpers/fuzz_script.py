@@ -20,7 +20,7 @@ QUERIES = (
 NUMBERS = ("damping", "measurePeriod", "checkPeriod", "mirrorPeriod")
 #: What parts tell.
 PART_READINGS = (
-    *("force", "work", "place", "displacement", "width", "area", "normal", "contact_angle"),
+    *("force", "work", "position", "displacement", "width", "area", "normal", "contact_angle"),
     *("angle", "machine_energy", "moment", "nodes", "axes", "requested_position"),
 )
 
@@ -169,11 +169,11 @@ class Script:
     def do_seat(self, side: int, name: Any) -> None:
         if rig := self._parts():
             self._held.append(rig.platen(side, seated=True))
-            rig.angle_of(name, self._held[-1])
+            rig.rotation_of(name, self._held[-1])
 
     def do_ends(self, pressure: Any, way: Any, load: Any) -> None:
         if self._built is not None:
-            self._flexpm.rig(self._built).elastic(pressure, way=way, load=load)
+            self._flexpm.rig(self._built).elastic(pressure, displacement=way, load=load)
 
     def do_end(self, name: str, arguments: list[Any], named: dict[str, Any]) -> None:
         """A call of the rig between ends."""
@@ -198,7 +198,7 @@ class Script:
     def do_jaw(self, x: float, y: float, radius: float, angle: Any, name: Any) -> None:
         if rig := self._parts():
             self._held.append(rig.jaw(self._at(x, y), radius, angle=angle))
-            rig.contact_of(name, self._held[-1])
+            rig.contact_angle_of(name, self._held[-1])
 
     def do_soft(self, way: list[Any], parts: list[Any], machine: float) -> None:
         if rig := self._parts():
@@ -216,7 +216,7 @@ class Script:
     def do_turn(self, about: Any, parts: list[Any], back: list[Any]) -> None:
         if rig := self._parts():
             place = None if about is None else self._at(*about)
-            rig.turn(self._picked(parts), self._picked(back), about=place)
+            rig.rotate(self._picked(parts), self._picked(back), about=place)
 
     def do_press(self, part: list[Any], pressure: float) -> None:
         if rig := self._parts():
@@ -224,7 +224,7 @@ class Script:
 
     def do_elastic(self, part: list[Any], pressure: Any, way: Any, load: Any) -> None:
         if rig := self._parts():
-            rig.elastic({self._picked(part): pressure}, way=way, load=load)
+            rig.elastic({self._picked(part): pressure}, displacement=way, load=load)
 
     def do_press_all(self, parts: list[Any], pressures: list[Any]) -> None:
         if rig := self._parts():
@@ -253,8 +253,8 @@ class Script:
 
     def do_names(self, name: Any, column: Any, part: list[Any]) -> None:
         if rig := self._parts():
-            rig.also(name, column)
-            rig.way_of(name, self._picked(part), self._along([0.0, 1.0]))
+            rig.alias_column(name, column)
+            rig.displacement_of(name, self._picked(part), self._along([0.0, 1.0]))
 
     def do_read(self, column: Any) -> None:
         if rig := self._parts():

@@ -22,9 +22,9 @@ def require_descent(rig: Any, top: Any, machine: float, strength: float, *, stab
     """
     rig.load(flexpm.Loading(rate=0.05, kind="constant", stop_ratio=0.9))
     # a crosshead that stands behind the peak: the load goes on falling, or stays
-    rig.dwell(30.0, by="way")
+    rig.dwell(30.0, by="displacement")
     stands = rig.record["load"][-1]
-    rig.dwell(30.0, by="way")
+    rig.dwell(30.0, by="displacement")
     record, load = rig.record, rig.record["load"]
     peak = int(load.argmax())
     assert load[peak] == pytest.approx(strength, rel=0.01)

@@ -149,9 +149,9 @@ def _arm_ends(rig: PartRig, size: Sizes) -> tuple[HeldNodes, HeldNodes]:
 
 def _drive(rig: PartRig, mode: str, upper: HeldNodes, lower: HeldNodes, strength: float) -> None:
     if mode == "opened":
-        rig.turn([lower], [upper], strength=strength)
+        rig.rotate([lower], [upper], strength=strength)
     else:
-        rig.turn([lower, upper], strength=strength)
+        rig.rotate([lower, upper], strength=strength)
 
 
 def _come_to_rest(rig: PartRig) -> None:

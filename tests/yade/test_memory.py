@@ -127,7 +127,7 @@ def test_a_result_takes_the_state_of_a_solid_once(monkeypatch):
     result = flexpm.run("tension", box, rate=20.0)
     (state,) = taken
     assert result.snapshot is state
-    assert result.largest_parting == state.parting / box.mean_diameter > 0.0
+    assert result.largest_separation == state.parting / box.mean_diameter > 0.0
 
 
 def test_a_file_of_a_solid_and_its_elastic_start_take_little_memory(tmp_path):

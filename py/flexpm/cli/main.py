@@ -26,6 +26,7 @@ from ..errors import InputError, SimulationError
 from ..files import json_text, require_writable, write_text
 from ..materials.material import load
 from ..materials.mixing import value_of
+from ..renamed import with_old_keys
 from ..report import tables
 from ..require import nearest
 from ..runs.output import ROSE
@@ -346,7 +347,7 @@ def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:
     from ..report import maps
 
     found = made.statistics()
-    write_text(folder / "specimen.json", json_text(found))
+    write_text(folder / "specimen.json", json_text(with_old_keys(found)))
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     picture = folder / "specimen.png"
     triangles = maps.mesh_triangles(made.meshes(mesh)) if mesh else None

@@ -103,7 +103,7 @@ def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig:
         strength=layout.strength,
     )
     for name, column in layout.also.items():
-        rig.also(name, column)
+        rig.alias_column(name, column)
     for name, one in layout.openings.items():
         if isinstance(rig, SolidPartRig) and name == _MOUTH:
             rig.read_mouth(one.first[0], one.second[0])
@@ -111,7 +111,7 @@ def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig:
         first, second = (_at(place, depth) for place in (one.first, one.second))
         rig.gauge(name, first, second, along=one.along and _along(one.along, depth))
     for name, (part, direction) in layout.ways.items():
-        rig.way_of(name, parts[part], _along(direction, depth))
+        rig.displacement_of(name, parts[part], _along(direction, depth))
     return rig
 
 

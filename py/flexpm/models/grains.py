@@ -197,10 +197,10 @@ class Model:
         return None
 
     @property
-    def joint_bend(self) -> float | None:
-        """Largest distance of a joint that bears from its lines [m], see `Specimen.joint_bends`."""
+    def joint_deviation(self) -> float | None:
+        """Largest distance of a bearing joint from its lines [m]: `Specimen.joint_deviations`."""
         bearing = {joint.name for joint in self.material.joints if not joint.open}
-        bends = self.specimen.joint_bends().items()
+        bends = self.specimen.joint_deviations().items()
         return max((bend for name, bend in bends if name in bearing), default=None)
 
 

@@ -61,12 +61,12 @@ def rose_picture(path: Path | str, specimen: Specimen) -> None:
             axes = figure.add_subplot(up, across, number + 1, projection="polar")
             traces = np.array(specimen.joints.get(name, none)).reshape(-1, 2, 2)
             # traces lie in the window about the specimen: those within count
-            _draw(axes, one, (traces, found[name]["drawn"]), ends.get(name, none), area)
+            _draw(axes, one, (traces, found[name]["generated"]), ends.get(name, none), area)
             numbers = ", ".join(f"{key} {value:.3g}" for key, value in found[name].items())
             axes.set_title(f"{label_of(name)}\nP21 {numbers} 1/m", fontsize=8.5)
         handles = [
-            Line2D([], [], color=_ASKED, lw=1.6, label="asked"),
-            Line2D([], [], color=_DRAWN, lw=1.2, label="drawn"),
+            Line2D([], [], color=_ASKED, lw=1.6, label="target"),
+            Line2D([], [], color=_DRAWN, lw=1.2, label="generated"),
             Patch(facecolor=_CUT, label="cut"),
         ]
         figure.legend(handles=handles, loc="lower center", ncol=3, frameon=False)

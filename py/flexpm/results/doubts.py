@@ -335,9 +335,9 @@ def of_motion(kinetic_shares: Mapping[str, float], parting: float | None) -> lis
             )
     if parting is not None and parting > LARGEST_PARTING:
         lines.append(
-            f"largest_parting = {parting:.3g} mean diameters between grains once bonded, is above "
-            f"{LARGEST_PARTING:g}: grains have flown off; read strains and pictures up to there, "
-            "or stop earlier (--stop-ratio)"
+            f"largest_separation = {parting:.3g} mean diameters between grains once bonded, is "
+            f"above {LARGEST_PARTING:g}: grains have flown off; read strains and pictures up to "
+            "there, or stop earlier (--stop-ratio)"
         )
     return lines
 
@@ -437,8 +437,8 @@ def of_bend(bend: float) -> str:
         bend: Its largest distance from its lines [m].
     """
     return (
-        f"joint_bend = {bend:.3g} m, a joint bends to the grains and catches as it slides; take "
-        "another seed or smaller grains"
+        f"joint_deviation = {bend:.3g} m, a joint bends to the grains and catches as it slides; "
+        "take another seed or smaller grains"
     )
 
 

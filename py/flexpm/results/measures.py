@@ -150,7 +150,7 @@ def softening_slope(curve: Curve) -> float | None:
     return _slope(curve["axial_strain"][rows], stress[rows], fewest=2)
 
 
-def late_modulus(curve: Curve) -> float | None:
+def tangent_modulus_ratio(curve: Curve) -> float | None:
     """Tangent modulus around 80 % of the peak over that around 20 % [-], by least squares.
 
     1 is a straight line up to there; the paper's two slopes (Fig. 9) give less.

@@ -18,6 +18,8 @@ from ..arrays import FloatArray
 from ..errors import InputError
 from ..files import csv_text, load_csv
 from ..notebook import Shown
+from ..renamed import COLUMNS as RENAMED
+from ..renamed import present
 from ..require import require_known
 
 if TYPE_CHECKING:
@@ -84,6 +86,7 @@ class Curve(Shown):
         Raises:
             InputError: for a column that the record does not have, with the nearest name.
         """
+        column = present(column, RENAMED, self.columns)
         require_known("record: column", column, self.columns)
         return self._data[: self._rows, self.columns.index(column)]
 
@@ -161,6 +164,7 @@ class Curve(Shown):
             found = np.array(rows, dtype=float).reshape(len(rows), len(names))
         except ValueError as error:
             raise InputError(f"record = {str(path)!r}, holds no numbers: {error}") from None
+        names, found = _present(names, found)
         own = [name for name in names if name not in COLUMNS]
         columns = [
             found[:, names.index(name)] if name in names else np.full(len(rows), np.nan)
@@ -170,9 +174,35 @@ class Curve(Shown):
 
     def csv(self) -> str:
         """The record as CSV text; numbers are written so that they read back unchanged."""
-        whole = [name in INTEGERS for name in self.columns]
+        old = {
+            one: self.columns.index(new)
+            for one, new in RENAMED.items()
+            if new in self.columns and one not in self.columns
+        }
+        whole = [name in INTEGERS for name in (*self.columns, *old)]
+        table = np.column_stack([self.array, *(self.array[:, [one]] for one in old.values())])
         rows = (
             [int(value) if integer else value for value, integer in zip(row, whole, strict=True)]
-            for row in self.array.tolist()
+            for row in table.tolist()
         )
-        return csv_text(self.columns, rows)
+        return csv_text((*self.columns, *old), rows)
+
+
+def _present(names: Sequence[str], found: FloatArray) -> tuple[list[str], FloatArray]:
+    """Columns of a file under their present names alone.
+
+    An old name belongs to the soft machine, which has its energy, too, or to a script's gauge.
+    """
+    names = [*names]
+    for old, new in RENAMED.items():
+        if old not in names:
+            continue
+        place = names.index(old)
+        if new not in names and "machine_energy" in names:
+            names[place] = new
+        elif new in names and np.array_equal(
+            found[:, place], found[:, names.index(new)], equal_nan=True
+        ):
+            del names[place]
+            found = np.delete(found, place, axis=1)
+    return names, found

@@ -14,6 +14,14 @@ from ..files import Table, json_text, load_json, output_folder, write_text
 from ..kinds.registry import OWN, kind_of
 from ..kinds.test_kind import Rig
 from ..notebook import Shown
+from ..renamed import (
+    ATTRIBUTES,
+    NETWORKS,
+    Renamed,
+    current,
+    with_old_keys,
+    with_old_names,
+)
 from . import core, doubts, measures, waves
 from .cracks import MODES, AnyCrack, cracks_csv, read_cracks
 from .emission import AnyEvent, EventRule, events_csv, find_events, frequencies, read_events
@@ -37,6 +45,7 @@ OF_SOLIDS = ("tetrahedra", "largest_overlap", "second_confinement")
 _SECOND = "second_confinement"
 
 
+@with_old_names
 @dataclass
 class Result(Shown):
     """Numbers of one test: the keys of result.json, then the record and the cracks.
@@ -78,7 +87,7 @@ class Result(Shown):
     energy_error: float | None = None  #: relative to the largest work [-]
     contact_width: float | None = None  #: mean of the plates of a Brazilian test at its end [m]
     softening_slope: float | None = None  #: of stress over strain after the peak [Pa]
-    late_modulus: float | None = None  #: at 80 % of the peak over that at 20 % [-]
+    tangent_modulus_ratio: float | None = None  #: at 80 % of the peak over that at 20 % [-]
     softening_onset: float | None = None  #: share of the peak at which a point first softens [-]
     first_tensile_crack_strain: float | None = None  #: axial strain at it [-]
     first_tensile_crack_stress: float | None = None  #: axial stress at it [Pa]
@@ -101,13 +110,13 @@ class Result(Shown):
     first_crack_distance: float | None = None
     peak_load: float | None = None  #: largest load of a test between parts [N]
     notch_depth: float | None = None  #: depth of the notch as it was cut [m]
-    joint_bend: float | None = None  #: largest distance of a bearing joint from its lines [m]
+    joint_deviation: float | None = None  #: largest distance of a bearing joint from its lines [m]
     #: what came of the lines of each joint, by its name; lengths [m]
     joint_cuts: Table | None = None
-    networks: Table | None = None  #: P21 asked for, drawn and cut of each set of traces [1/m]
+    networks: Table | None = None  #: P21 requested, generated and cut of each set of traces [1/m]
     loose_grains: int | None = None  #: joined by no contact to what is held, at the end
     #: growth of a distance between grains once bonded, at the end, in mean diameters [-]
-    largest_parting: float | None = None
+    largest_separation: float | None = None
     #: deepest overlap of grains of a solid that were never neighbours, in mean diameters [-]
     largest_overlap: float | None = None
     fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
@@ -161,8 +170,8 @@ class Result(Shown):
         found = doubts.of_inputs(given) if given else []
         if kind_of(self.test).rig is Rig.WAVE and self.vp is None and self.vs is None:
             found.append(doubts.NO_PULSE)
-        if self.joint_bend:
-            found.append(doubts.of_bend(self.joint_bend))
+        if self.joint_deviation:
+            found.append(doubts.of_bend(self.joint_deviation))
         found += doubts.of_cuts(self.joint_cuts or {})
         found += doubts.of_overlap(self.largest_overlap or 0.0)
         found += doubts.of_first_cracks(
@@ -183,7 +192,7 @@ class Result(Shown):
         if kind_of(self.test).is_core and (first := measures.regained_peak(self.curve)):
             found.append(doubts.of_regained(first, float(np.max(self.curve["axial_stress"]))))
         if kind_of(self.test).quasi_static:
-            found += doubts.of_motion(measures.kinetic_shares(self.curve), self.largest_parting)
+            found += doubts.of_motion(measures.kinetic_shares(self.curve), self.largest_separation)
         told = given.get("doubts", ())  # by a script's rig
         return found + [line for line in told if line not in found]
 
@@ -215,7 +224,7 @@ class Result(Shown):
         self.end_mismatch = measures.end_mismatch(record)
         self.energy_error = measures.energy_error(whole, initial_energy)
         self.softening_slope = measures.softening_slope(record)
-        self.late_modulus = measures.late_modulus(record)
+        self.tangent_modulus_ratio = measures.tangent_modulus_ratio(record)
         if self.model in _SOFTENING:
             self.softening_onset = measures.softening_onset(record)
             self.elastic_poissons_ratio = measures.elastic_poissons_ratio(record)
@@ -333,7 +342,8 @@ class Result(Shown):
         for name in OF_SOLIDS:
             if content[name] is None:
                 del content[name]
-        return content | {"warnings": self.warnings, "inputs": inputs}
+        whole = content | {"warnings": self.warnings, "inputs": inputs}
+        return Renamed(whole, ATTRIBUTES["Result"])
 
     @classmethod
     def read(cls, folder: Path | str, name: str = FINISHED) -> Result:
@@ -348,10 +358,12 @@ class Result(Shown):
             InputError: if a file cannot be read, or is not that of a run.
         """
         folder = Path(folder)
-        content = load_json(folder / name, "result")
+        content = current(load_json(folder / name, "result"))
         given = {key: value for key, value in content.items() if key in cls.__dataclass_fields__}
         require_sense(folder / name, given, fields(cls))
         result = cls(**given)
+        if result.networks is not None:
+            result.networks = {k: Renamed(v, NETWORKS) for k, v in result.networks.items()}
         result.curve = Curve.read(folder / "curve.csv")
         result.cracks = read_cracks(folder / "cracks.csv")
         if result.events is not None:
@@ -374,7 +386,7 @@ class Result(Shown):
             write_text(
                 folder / "fragments.csv", self.snapshot.fragments.csv(self.snapshot.size_name)
             )
-        write_text(folder / name, json_text(self.as_dict()))
+        write_text(folder / name, json_text(with_old_keys(self.as_dict())))
 
 
 def _plain(value: object) -> object:

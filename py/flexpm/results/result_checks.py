@@ -20,7 +20,7 @@ _SHARES = ("largest_fragment",)
 _NOT_NEGATIVE = (
     *("step_time", "confinement", "unbalanced_ratio", "end_mismatch", "energy_error"),
     *("second_confinement", "first_crack_stress", "first_crack_distance"),
-    *("contact_width", "notch_depth", "joint_bend", "peak_load", "vp", "vs", "b_value_error"),
+    *("contact_width", "notch_depth", "joint_deviation", "peak_load", "vp", "vs", "b_value_error"),
 )
 #: File with the numbers of a run that has ended.
 FINISHED = "result.json"

@@ -21,6 +21,7 @@ from ..errors import InputError
 from ..kinds.registry import kind_of
 from ..kinds.test_kind import Rig
 from ..models.grains import Model
+from ..renamed import COLUMNS, present
 from ..require import nearest, quoted
 from ..results import doubts, measures
 from ..results.record import Curve
@@ -72,7 +73,7 @@ class GrainRig(TestRig):
         """What makes the record doubtful, see `TestRig.warnings`."""
         record, recorder = self.record, self._recorder
         lines = super().warnings
-        if bend := self.built.joint_bend:
+        if bend := self.built.joint_deviation:
             lines.append(doubts.of_bend(bend))
         cuts = {name: cut.to_json() for name, cut in self.built.specimen.told_cuts.items()}
         lines += doubts.of_cuts(cuts)
@@ -180,6 +181,7 @@ class GrainRig(TestRig):
 
     def _drive(self, plan: Schedule) -> None:
         recorder, factor = self._recorder, 1.0
+        plan = replace(plan, control=present(plan.control, COLUMNS, self._measures()))
         self._require_measure(plan.control)
         if not self.may_fail_at_once:
             plan = replace(plan, softening_growth=0.0)

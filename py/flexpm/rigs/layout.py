@@ -60,7 +60,7 @@ class PartLayout:
 
     def support(
         self,
-        place: Place,
+        position: Place,
         length: float | None = None,
         *,
         normal: Place = (0.0, 0.0),
@@ -73,7 +73,7 @@ class PartLayout:
         """Lay a plate against the part of the outline around a place.
 
         Args:
-            place: x and y, on the outline [m].
+            position: x and y, on the outline [m].
             length: Along the outline [m]; None for half a mean diameter of the grains.
             normal: x and y, into the specimen; zero: that of the outline there.
             pinned: It does not slide along the outline as long as it presses; else it is a roller.
@@ -92,7 +92,7 @@ class PartLayout:
         length = _SUPPORT * self.built.specimen.mean_diameter if length is None else length
         friction = require_number("support: friction", friction, NOT_NEGATIVE)
         values = (
-            require_vector("support: place", place),
+            require_vector("support: position", position),
             require_number("support: length", length, POSITIVE, "m"),
             require_vector("support: normal", normal, ""),
             NO_SLIDING if require_flag("support: pinned", pinned) else friction,
@@ -142,7 +142,7 @@ class PartLayout:
 
     def jaw(
         self,
-        place: Place,
+        position: Place,
         radius: float,
         *,
         angle: float | None = None,
@@ -151,11 +151,11 @@ class PartLayout:
     ) -> Part:
         """Lay an arc around the rim of a disc: the curved jaw of a splitting test.
 
-        The disc lies against ever more of it as the load grows; `contact_of` records the angle. A
-        jaw of the disc's own radius touches all of its angle at once (deviation D95).
+        The disc lies against ever more of it as the load grows; `contact_angle_of` records the
+        angle. A jaw of the disc's own radius touches all of its angle at once (deviation D95).
 
         Args:
-            place: x and y of the jaw's middle, in whose direction from the disc's centre it lies
+            position: x and y of the jaw's middle, in whose direction from the disc's centre it lies
                 [m].
             radius: Radius of the arc, at least the disc's; 1.5 times that by the ISRM [m].
             angle: Angle of the disc before it [rad], at most 2 pi / 3, which it has by default; one
@@ -169,7 +169,7 @@ class PartLayout:
                 radius, a radius below the disc's, or an angle out of range or missing.
         """
         centre, rim = self._disc()
-        x, y, _ = require_vector("jaw: place", place)
+        x, y, _ = require_vector("jaw: position", position)
         jaw = Jaw.of((x, y), centre, rim, radius, angle)
         values = (
             (centre[0] + jaw.towards[0], centre[1] + jaw.towards[1], 0.0),
@@ -203,7 +203,7 @@ class PartLayout:
         where: Where | None = None,
         axes: str | None = None,
     ) -> HeldNodes:
-        """Hold the nodes of a region at rest; `drive`, `turn` or `HeldNodes.move` moves them.
+        """Hold the nodes of a region at rest; `drive`, `rotate` or `HeldNodes.move` moves them.
 
         All nodes in the region of deformable grains are held, of rigid ones the centres, about
         which the grains are free to turn (deviation D52). What counts is where they were when
@@ -292,7 +292,7 @@ class PartLayout:
                 "part": "plate",
                 **{name: one[name] for name in ("normal", "width", "friction", "bonded")},
                 **{name: one[name] for name in _EXTRA if one[name]},
-                "place": before(one),
+                "position": before(one),
                 "face": _face_of(one),
             }
             for one in solver.plates()
@@ -303,7 +303,7 @@ class PartLayout:
                 "part": "held nodes",
                 "nodes": [int(node) for node in one["nodes"]],
                 "axes": one["axes"],
-                "place": before(one),
+                "position": before(one),
                 "face": _box_around(places[np.isin(numbers, one["nodes"])]),
             }
             for one in solver.nodeSets()

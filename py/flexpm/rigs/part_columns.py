@@ -7,6 +7,8 @@ from yade import wrapper
 
 from ..errors import InputError
 from ..files import Table
+from ..renamed import COLUMNS as RENAMED
+from ..renamed import present
 from ..require import quoted, require_flag, require_known
 from ..results.record import COLUMNS
 from .layout import PartLayout
@@ -62,7 +64,7 @@ class PartColumns(PartLayout):
             wrapper.Gauge(first=node, second=other, direction=direction, length=base),
         )
 
-    def way_of(self, name: str, part: RigPart, direction: Place) -> None:
+    def displacement_of(self, name: str, part: RigPart, direction: Place) -> None:
         """Record how far a part moves along a direction [m], in a column of this name.
 
         The way of held nodes is their mean.
@@ -76,7 +78,7 @@ class PartColumns(PartLayout):
             gauge.plate = part.number
         self._add_gauge(name, gauge)
 
-    def contact_of(self, name: str, jaw: Part) -> None:
+    def contact_angle_of(self, name: str, jaw: Part) -> None:
         """Record the angle over which a disc lies against a jaw [rad], in a column of this name.
 
         It is that at the disc's centre between the outermost points in contact, each with its
@@ -88,7 +90,7 @@ class PartColumns(PartLayout):
             raise InputError(f"{label}: part = {jaw}, must be a jaw")
         self._add_gauge(name, wrapper.Gauge(plate=jaw.number, reads="contact_angle"))
 
-    def angle_of(self, name: str, part: Part) -> None:
+    def rotation_of(self, name: str, part: Part) -> None:
         """Record the angle of a seated part, see `Part.angle` [rad], in a column of this name.
 
         In space that is its size.
@@ -100,13 +102,22 @@ class PartColumns(PartLayout):
         self._add_gauge(name, wrapper.Gauge(plate=part.number, reads="angle"))
 
     def _watch_machine(self, plate: int, unit: tuple[float, float, float]) -> None:
-        for name in ("crosshead", "machine_energy"):
-            there = [one for one in self._recorder.gauges if one.reads == name]
+        for reads in ("crosshead", "machine_energy"):
+            name = RENAMED.get(reads, reads)
+            there = [one for one in self._recorder.gauges if one.reads == reads]
+            self._rename(there, name)
             if there and not self._begun:  # another call says what loads
                 there[0].plate, there[0].direction = plate, unit
                 continue
             label = self._gauge_name(name)
-            self._add_gauge(label, wrapper.Gauge(plate=plate, direction=unit, reads=name))
+            self._add_gauge(label, wrapper.Gauge(plate=plate, direction=unit, reads=reads))
+
+    def _rename(self, there: list[wrapper.Gauge], name: str) -> None:
+        """Give gauges of a record that began under an old name, and its servo, the present one."""
+        for one in there:
+            if self._recorder.controlled == one.name:
+                self._recorder.controlled = name
+            one.name = name
 
     def reading(self, name: str) -> float:
         """Return what a gauge reads in the present state, in the unit of its column.
@@ -121,18 +132,21 @@ class PartColumns(PartLayout):
             InputError: for an unknown gauge, or one of an erased grain.
         """
         self._require_scene("reading")
-        require_known("reading: gauge", name, [one.name for one in self._recorder.gauges])
+        names = [one.name for one in self._recorder.gauges]
+        name = present(name, RENAMED, names)
+        require_known("reading: gauge", name, names)
         if name in self._recorder.lostGauges():
             raise InputError(
                 f"reading: the grain of gauge {quoted(name)} has been erased; place another gauge"
             )
         return self._recorder.reading(name)
 
-    def also(self, name: str, column: str) -> None:
+    def alias_column(self, name: str, column: str) -> None:
         """Give a column of the record a second name, which the test is known by."""
         there = self._columns()
-        require_known("also: column", column, there)
-        self._same[require_column("also", name, (*there, "set_point"))] = column
+        column = present(column, RENAMED, there)
+        require_known("alias_column: column", column, there)
+        self._same[require_column("alias_column", name, (*there, "set_point"))] = column
 
     @property
     def gauges(self) -> list[Table]:

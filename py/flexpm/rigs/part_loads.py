@@ -52,7 +52,7 @@ class PartLoads(PartLayout):
                 0: twice that at which the first contact point softens.
             machine: Stiffness of a soft machine [N/m], a spring between the one plate that loads
                 along its normal and a crosshead, which then moves in its place (deviation D95).
-                The record has the columns ``crosshead``, its way along the loading [m], and
+                The record has the columns ``crosshead_displacement``, along the loading [m], and
                 ``machine_energy``, stored in the spring [J], beside those of the plate; its
                 energies are those of the specimen. None: the plate itself is moved.
 
@@ -86,7 +86,7 @@ class PartLoads(PartLayout):
         )
         self._soften(moved, unit, soft)
 
-    def turn(
+    def rotate(
         self,
         parts: HeldNodes | Sequence[HeldNodes],
         back: HeldNodes | Sequence[HeldNodes] = (),
@@ -124,24 +124,24 @@ class PartLoads(PartLayout):
         sizes: Mapping[str, float],
     ) -> None:
         """Turn sets about an axis, the second ones the other way."""
-        sets = require_parts("turn: part", self, parts[0], HeldNodes)
-        others = require_parts("turn: part back", self, parts[1], HeldNodes)
+        sets = require_parts("rotate: part", self, parts[0], HeldNodes)
+        others = require_parts("rotate: part back", self, parts[1], HeldNodes)
         if not sets:
-            raise InputError("turn: parts = none, must be at least 1")
-        require_apart("turn: part", sets, others)
-        pivot = None if about is None else require_vector("turn: about", about, axes=self._axes)
-        self._require_fixed("turn", () if about is not None else (*sets, *others))
+            raise InputError("rotate: parts = none, must be at least 1")
+        require_apart("rotate: part", sets, others)
+        pivot = None if about is None else require_vector("rotate: about", about, axes=self._axes)
+        self._require_fixed("rotate", () if about is not None else (*sets, *others))
         self._load_by(
-            "turn",
+            "rotate",
             driven=[],
             drivenSets=numbers(sets, HeldNodes),
             backSets=numbers(others, HeldNodes),
             holding=[],
             holdingSets=[],
             direction=axis,
-            area=require_number("turn: area", sizes["area"], POSITIVE, "N m/Pa"),
-            length=require_number("turn: length", sizes["length"], POSITIVE),
-            strength=require_number("turn: strength", sizes["strength"], NOT_NEGATIVE, "Pa"),
+            area=require_number("rotate: area", sizes["area"], POSITIVE, "N m/Pa"),
+            length=require_number("rotate: length", sizes["length"], POSITIVE),
+            strength=require_number("rotate: strength", sizes["strength"], NOT_NEGATIVE, "Pa"),
         )
         for part in (*sets, *others):
             self._turn_about(part, pivot)
@@ -254,7 +254,7 @@ class PartLoads(PartLayout):
         place = np.subtract(now["place"], now["displacement"])
         apart = pivot is not None and not np.allclose(place, pivot[: len(place)])
         if apart or now["floats"] != (pivot is None):
-            raise InputError(f"turn: about = {pivot}, must be as the record has begun")
+            raise InputError(f"rotate: about = {pivot}, must be as the record has begun")
 
 
 def _require_soft(

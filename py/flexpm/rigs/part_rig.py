@@ -21,6 +21,7 @@ from ..errors import InputError
 from ..files import Table
 from ..kinds.registry import OWN, kind_of
 from ..models.grains import Model
+from ..renamed import with_old_names
 from ..require import NOT_NEGATIVE, require_number
 from ..runs.loading_rate import Loading, Scales, Schedule, rates_of
 from ..runs.runner import Runner
@@ -34,14 +35,15 @@ from .stages.excavating import PartExcavation
 _PUSHES = 1e-9
 
 
+@with_old_names
 @recording
 class PartRig(PartColumns, PartExcavation):
     """A specimen of any outline between parts.
 
-    Lay parts with `support` and `platen`, hold nodes with `hold`, read with `gauge` and `way_of`,
-    say with `drive` or `turn` which parts load, and then `load` or `strain_to`. In a run that is
-    taken up from a checkpoint the same calls find what they have laid before. Places and directions
-    of a 3D specimen have a third component.
+    Lay parts with `support` and `platen`, hold nodes with `hold`, read with `gauge` and
+    `displacement_of`, say with `drive` or `rotate` which parts load, and then `load` or
+    `strain_to`. In a run that is taken up from a checkpoint the same calls find what they have laid
+    before. Places and directions of a 3D specimen have a third component.
     """
 
     built: Model
@@ -108,7 +110,7 @@ class PartRig(PartColumns, PartExcavation):
         return self._kind
 
     @property
-    def laid(self) -> Table:
+    def layout(self) -> Table:
         """Parts, what loads, and gauges, as plain values."""
         return {"parts": self.parts, "drive": self.drives, "gauges": self.gauges}
 

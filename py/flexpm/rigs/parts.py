@@ -11,10 +11,12 @@ from yade import wrapper
 
 from ..errors import InputError
 from ..files import Table
+from ..renamed import with_old_names
 from ..require import quoted, require_number
 from .places import PLANE, SPACE, Place, require_vector
 
 
+@with_old_names
 @dataclass(frozen=True, eq=False)
 class RigPart:
     """What a rig has laid on its specimen. What it says is of the last step."""
@@ -37,7 +39,7 @@ class RigPart:
         return float(self._now["work"])
 
     @property
-    def place(self) -> tuple[float, ...]:
+    def position(self) -> tuple[float, ...]:
         """Where it is, x, y and in space z [m]."""
         return self._vector("place")
 
@@ -48,7 +50,7 @@ class RigPart:
 
     def __str__(self) -> str:
         """Its kind and place."""
-        return f"{self.kind} at {in_words(self.place)} m"
+        return f"{self.kind} at {in_words(self.position)} m"
 
     @property
     def _now(self) -> Table:
@@ -75,7 +77,7 @@ class RigPart:
 
 @dataclass(frozen=True, eq=False)
 class Part(RigPart):
-    """A plate of a rig; `place` is where its load acts: the mean of its contacts by area."""
+    """A plate of a rig; `position` is where its load acts: the mean of its contacts by area."""
 
     _list = "plates"
 
@@ -121,7 +123,7 @@ class Part(RigPart):
 class HeldNodes(RigPart):
     """Nodes that a rig holds or moves as one.
 
-    `place` is the point about which they turn: the mean of their places, unless told otherwise.
+    `position` is the point about which they turn: the mean of their places, unless told otherwise.
     In the plane a turn is counter-clockwise, in space it has three components, right-handed.
     """
 
@@ -129,7 +131,7 @@ class HeldNodes(RigPart):
 
     @property
     def moment(self) -> float | tuple[float, ...]:
-        """On the specimen about `place` [N m]."""
+        """On the specimen about `position` [N m]."""
         return self._turn("moment")
 
     @property
@@ -153,7 +155,7 @@ class HeldNodes(RigPart):
         Args:
             velocity: x, y and in space z, of what is held alone [m/s, or m per step with scaled
                 masses]; None: none.
-            spin: About `place` [rad/s, or rad per step]; in space x, y and z.
+            spin: About `position` [rad/s, or rad per step]; in space x, y and z.
 
         Raises:
             InputError: for a velocity along an axis that is not held, or one of nodes that turn

@@ -149,7 +149,7 @@ class Jaw:
         off = abs(long - rim)
         if off > _OFF_RIM * rim:
             raise InputError(
-                f"jaw: place = ({at[0]:g}, {at[1]:g}) m, must be on the rim, is {off:.3g} m off"
+                f"jaw: position = ({at[0]:g}, {at[1]:g}) m, must be on the rim, is {off:.3g} m off"
             )
         radius = require_number("jaw: radius", radius, POSITIVE, "m")
         if radius < rim * (1.0 - _SAME):

@@ -23,6 +23,7 @@ from ..kinds.registry import of_ends
 from ..materials.mixing import mineral_materials
 from ..models.grains import Model
 from ..models.spheres import SphereModel
+from ..renamed import with_old_names
 from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
 from ..runs.likely import BRITTLE, Softening
@@ -110,6 +111,7 @@ def ended_rising(stages: Sequence[Table], record: Curve) -> bool:
     return rose and measures.peak_row(record) is None
 
 
+@with_old_names
 class RigReadings(ABC):
     """What can be read of a specimen between what loads it.
 
@@ -238,7 +240,7 @@ class RigReadings(ABC):
         """What the specimen fails to bear of the pressure on it now."""
 
     @property
-    def laid(self) -> Table:
+    def layout(self) -> Table:
         """How the specimen is held and loaded, as plain values."""
         return {"ends": {"test": self.kind, "pull": self.tension}}
 

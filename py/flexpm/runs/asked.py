@@ -21,6 +21,7 @@ from ..kinds.registry import options
 from ..materials.keys import JOINT_UNITS, UNITS
 from ..materials.material import Material, load, preset_names
 from ..materials.mixing import from_description
+from ..renamed import current
 from ..results.result_checks import FINISHED, SO_FAR
 from ..specimens.space.any_spec import SIZES, AnySpec, field_names, spec_of
 from ..specimens.spec import GRAINS_FILE
@@ -131,7 +132,7 @@ def differences(before: Table, now: Table) -> list[str]:
         before: Content of a result.json.
         now: Content of the other one.
     """
-    before, now = _without_times(before), _without_times(now)
+    before, now = _without_times(current(before)), _without_times(current(now))
     return [
         name
         for name in {**before, **now}

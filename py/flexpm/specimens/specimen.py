@@ -22,6 +22,7 @@ from ..joints.lines import checked as checked_lines
 from ..joints.lines import read as read_lines
 from ..notebook import Shown
 from ..progress import Progress
+from ..renamed import with_old_names
 from ..require import quoted
 from . import statistics
 from . import strengths as contact_strengths
@@ -39,6 +40,7 @@ from .spec import SpecimenSpec
 _STRAIGHT = 1e-9
 
 
+@with_old_names
 @dataclass(frozen=True, eq=False)
 class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
     """Bonded grains that fill an outline.
@@ -244,10 +246,10 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         return replace(self.with_joints(lines, progress), spec=spec)
 
     def network_intensities(self) -> dict[str, dict[str, float]]:
-        """P21 of each set of a network [1/m], as it was ``asked``, ``drawn`` and ``cut``.
+        """P21 of each set of a network [1/m], as ``target``, ``generated`` and ``cut``.
 
-        Drawn is that of the traces in the specimen, of which a seed has more or less than it was
-        asked for; cut is that of the contacts which they have made, with their bends (D35).
+        Generated is that of the traces in the specimen, which scatters about the target from seed
+        to seed; cut is that of the contacts which they have made, with their bends (D35).
         """
         ends = dict(zip(self.spec.joint_names or (), self.joint_lines(), strict=True))
         area, asked = float(np.sum(self.tessellation.cell_areas)), self.spec.asked_intensities
@@ -286,7 +288,7 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         ends = cells.vertices[cells.shared_edges[:, 2:]]
         return [ends[self.edge_joints == number] for number in range(count)]
 
-    def joint_bends(self) -> dict[str, float]:
+    def joint_deviations(self) -> dict[str, float]:
         """Largest distance of each joint's contacts from its lines, which bends to grains [m].
 
         Deviation D35; a joint of a file without its lines has none.

@@ -11,6 +11,7 @@ import numpy as np
 from .._flexpm import GrainMeshes, Tessellation
 from ..arrays import FloatArray
 from ..joints.cuts import Cut
+from ..renamed import NETWORKS, Renamed
 
 #: Shares of the edges that are shorter than the lengths given [-].
 _SHARES = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
@@ -54,7 +55,7 @@ def of_networks(
     cuts: Mapping[str, Cut],
     area: float,
 ) -> dict[str, dict[str, float]]:
-    """P21 of each set of traces [1/m], as it was asked, drawn and cut.
+    """P21 of each set of traces [1/m], as it was requested, generated and cut.
 
     Args:
         asked: Name and P21 of each set [1/m].
@@ -62,14 +63,15 @@ def of_networks(
         cuts: What came of the lines of each joint.
         area: That of the specimen [m2].
     """
-    found = {}
+    found: dict[str, dict[str, float]] = {}
     for name, intensity in asked:
         lengths = [0.0, 0.0]  # of a set without a trace
         if name in ends:
             cut, way = cuts[name], ends[name][:, 1] - ends[name][:, 0]
             lengths = [cut.length - cut.outside, float(np.sum(np.hypot(way[:, 0], way[:, 1])))]
-        drawn, made = (length / area for length in lengths)
-        found[name] = {"asked": intensity, "drawn": drawn, "cut": made}
+        generated, made = (length / area for length in lengths)
+        values = {"target": intensity, "generated": generated, "cut": made}
+        found[name] = Renamed(values, NETWORKS)
     return found
 
 

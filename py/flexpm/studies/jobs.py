@@ -22,6 +22,7 @@ from ..kinds.registry import KINDS, kind_of
 from ..materials import interface, joint
 from ..materials.keys import ELASTIC_SET, UNITS, is_used
 from ..materials.material import load as load_material
+from ..renamed import current
 from ..require import quoted, require_known, require_number, require_text
 from ..runs import input_names
 from ..runs.output import Output
@@ -247,6 +248,7 @@ def known(folder: Path, key: str | None = None) -> Table | None:
         outcome: Table = read_json(folder / _OUTCOME)
         whole = outcome["exit_code"] in _FINAL and isinstance(outcome["message"], str)
         whole = whole and isinstance(outcome["result"], dict)
+        outcome["result"] = current(outcome["result"])
         return outcome if whole and key in (None, outcome.get("key", key)) else None
     except (OSError, ValueError, LookupError, TypeError, RecursionError):
         return None
@@ -328,7 +330,7 @@ def _measures(file: Path) -> Table:
         return {}
     return {
         key: value
-        for key, value in content.items()
+        for key, value in current(content).items()
         if key not in NOT_MEASURES and not isinstance(value, dict | list)
     }
 

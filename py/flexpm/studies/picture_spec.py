@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable
+from functools import partial
 
 from ..errors import InputError
 from ..files import Table
+from ..renamed import ATTRIBUTES, present
 from ..require import (
     require_file_name,
     require_known,
@@ -41,6 +43,10 @@ def checked(entries: Table, inputs: Iterable[str]) -> Table:
     by = require_list("study [[picture]] by", entries.get("by", []))
     where = require_table("study [[picture]] where", entries.get("where", {}))
     known = [*dict.fromkeys([*inputs, *(name for name in _MEASURES if name not in _HIDDEN)])]
+    new = partial(present, names=ATTRIBUTES["Result"], there=known)
+    by, where = [*map(new, by)], {new(name): one for name, one in where.items()}
+    entries = {**entries, "x": new(entries["x"]), "y": new(entries["y"])}
+    entries |= {key: one for key, one in (("by", by), ("where", where)) if key in entries}
     for column in (entries["x"], entries["y"], *by, *where):
         require_known("study [[picture]] column", column, known)
     if "file" in entries:

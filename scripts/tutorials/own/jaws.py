@@ -11,7 +11,7 @@ rig = flexpm.PartRig(flexpm.build(disc, "augig-table2-bilinear", "rigid"))
 # smooth jaws would let the disc roll between them
 top = rig.jaw((0.0, 0.5 * diameter), 0.75 * diameter, friction=0.3)
 bottom = rig.jaw((0.0, -0.5 * diameter), 0.75 * diameter, friction=0.3)
-rig.contact_of("contact_angle", top)
+rig.contact_angle_of("contact_angle", top)
 rig.drive(top, (0.0, -1.0), against=bottom)
 rig.load(flexpm.Loading(kind="waiting", stop_ratio=0.5))
 rig.save("jaws")

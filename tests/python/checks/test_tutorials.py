@@ -134,7 +134,7 @@ def test_fracture_network(package_parent, tmp_path):
     text = printed("fracture_network.py", package_parent, str(tmp_path), "2", "0,60")
     level, steep = (float(number) for number in re.findall(r"strength +([\d.]+)", text))
     assert steep < 0.8 * level
-    assert "P21 asked 150" in text
+    assert "P21 target 150" in text
     assert (tmp_path / "dip-60" / "network-2" / "network.png").stat().st_size > 10000
     assert (tmp_path / "strengths.png").stat().st_size > 10000
 

@@ -59,13 +59,13 @@ COLUMN = st.sampled_from(["opening", "load", "axial_stress", "set_point", "", "a
 #: A few numbers, good and bad, of loads, ways, pressures and times.
 VALUE = st.sampled_from([0.0, 10.0, 1e-7, -1.0, 1e300, float("nan"), None, "a"])
 CROSSINGS = st.sampled_from([1.0, 3, 0.0, -1.0, float("inf"), None])
-BY = st.sampled_from(["load", "way", "force", 1])
+BY = st.sampled_from(["load", "displacement", "force", 1])
 STAGES = st.one_of(
     st.tuples(
         st.just("stage"),
         st.sampled_from(["settle", "relax", "unload"]),
         st.just([]),
-        st.fixed_dictionaries({"crossings": CROSSINGS}),
+        st.fixed_dictionaries({"transits": CROSSINGS}),
     ),
     st.tuples(
         st.just("stage"),

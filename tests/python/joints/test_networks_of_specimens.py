@@ -10,6 +10,7 @@ from refusals import refusal, refused_command
 
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.renamed import current
 from flexpm.specimens.files.source import SpecimenSource
 from flexpm.specimens.spec import SpecimenSpec
 from flexpm.specimens.specimen import Specimen
@@ -62,8 +63,8 @@ def test_what_is_cut(kind, file, tmp_path):
         found = cut.network_intensities()["weak"]
         area = cut.tessellation.cell_areas.sum()
         ends, lines = cut.joint_lines()[0], cut.joint_cuts["weak"]
-        assert found["asked"] == 120.0
-        assert found["drawn"] == pytest.approx((lines.length - lines.outside) / area)
+        assert found["target"] == 120.0
+        assert found["generated"] == pytest.approx((lines.length - lines.outside) / area)
         made = math.fsum(math.dist(*one) for one in ends.tolist())
         assert found["cut"] == pytest.approx(made / area)
         # contacts bend to the grains, and go on to the edge of the one in which a trace ends
@@ -94,10 +95,10 @@ def test_a_network_joins_other_joints(rectangle, file, tmp_path):
 def test_the_command_draws_a_network(file, tmp_path, capsys):
     out = tmp_path / "out"
     assert cli.main(["specimen", "disc", "--quiet", "--network", str(file), "--out", str(out)]) == 0
-    assert "joint weak: P21 asked, drawn, cut" in capsys.readouterr().out
+    assert "joint weak: P21 target, generated, cut" in capsys.readouterr().out
     found = json.loads((out / "specimen.json").read_text())["networks"]["weak"]
-    assert found["asked"] == 120.0
-    assert found["cut"] == pytest.approx(found["drawn"], rel=0.25)
+    assert found["target"] == 120.0
+    assert found["cut"] == pytest.approx(found["generated"], rel=0.25)
     assert (out / "network.png").stat().st_size > 10000
 
 
@@ -108,7 +109,7 @@ def test_a_run_tells_its_network_and_repeats(file, rectangle, tmp_path, capsys):
     assert cli.main([*call, "--network-seed", "8", "--out", str(out)]) == 3  # no peak
     found = json.loads((out / "result.json").read_text())
     cut = rectangle.with_network(file, 8)
-    assert found["networks"] == cut.network_intensities()
+    assert current(found)["networks"] == cut.network_intensities()
     inputs = found["inputs"]["specimen"]
     assert inputs["joints"] == cut.spec.joints
     assert inputs["networks"] == [*cut.spec.networks]
@@ -186,6 +187,6 @@ def test_a_set_that_cuts_nothing_reads_back(rectangle, tmp_path):
         "orientation": {"law": "constant", "angle": 45.0},
     }
     cut = rectangle.with_network({"set": {"weak": one, "rare": {**one, "intensity": 1e-6}}})
-    assert cut.network_intensities()["rare"] == {"asked": 1e-6, "drawn": 0.0, "cut": 0.0}
+    assert cut.network_intensities()["rare"] == {"target": 1e-6, "generated": 0.0, "cut": 0.0}
     cut.save(tmp_path / "cut.json")
     assert Specimen.load(tmp_path / "cut.json").spec == cut.spec

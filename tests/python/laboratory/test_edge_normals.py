@@ -100,7 +100,7 @@ def test_a_block_rests_below_the_friction_angle_of_its_edge_and_slides_above_it(
     below = 1e-6 if model == "flexible" else 0.0
     rig.hold(where=lambda x, y: x * up[0] + y * up[1] < -below)
     block = yade.O.bodies[built.solver.bodyIds[3]].state
-    rig.settle(moving=beyond > 0.0, crossings=20 if beyond > 0.0 else 100)
+    rig.settle(moving=beyond > 0.0, transits=20 if beyond > 0.0 else 100)
     built.run(1)
 
     def along(vector):

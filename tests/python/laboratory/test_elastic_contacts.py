@@ -59,7 +59,7 @@ def test_a_column_that_nearly_topples_stands_where_it_comes_to_rest(model, short
         again.displacements, state.displacements, atol=1e-4 * np.abs(state.displacements).max()
     )
     # a tenth of a per cent of the weight is much where it nearly topples: on to rest
-    rig.settle(moving=True, crossings=100)
+    rig.settle(moving=True, transits=100)
     assert apart(state, rig) < 1e-3
 
 

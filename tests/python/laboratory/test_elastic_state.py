@@ -62,14 +62,14 @@ def test_forces_of_parts_are_those_asked_for_and_in_balance():
 def test_a_way_gives_the_load_that_gives_the_way_back(model):
     rig, (floor, _, top, _) = between_platens(model)
     rig.drive(top, (0.0, -1.0), against=floor)
-    one = rig.elastic(way=1e-6)
+    one = rig.elastic(displacement=1e-6)
     assert one.way == 1e-6
     assert one.load == pytest.approx(-one.force(top)[1], rel=1e-12)
     assert one.load == pytest.approx(one.force(floor)[1], rel=1e-9)
     back = rig.elastic(load=one.load)
     assert back.way == pytest.approx(1e-6, rel=1e-9)
     np.testing.assert_allclose(back.displacements, one.displacements, atol=1e-14)
-    assert rig.elastic(way=2e-6).load == pytest.approx(2.0 * one.load, rel=1e-6)
+    assert rig.elastic(displacement=2e-6).load == pytest.approx(2.0 * one.load, rel=1e-6)
 
 
 def test_what_is_pulled_off_a_plate_bears_nothing():
@@ -77,10 +77,10 @@ def test_what_is_pulled_off_a_plate_bears_nothing():
     base = rig.hold(box=((0.0, 0.0), (0.6 * WIDTH, 1e-5)))
     right = rig.platen(1)
     rig.drive(right, (1.0, 0.0))
-    state = rig.elastic(way=1e-6)  # it leaves
+    state = rig.elastic(displacement=1e-6)  # it leaves
     assert state.force(right) == (0.0, 0.0)
     assert np.abs(state.displacements).max() == 0.0
-    pushed = rig.elastic(way=-1e-6)
+    pushed = rig.elastic(displacement=-1e-6)
     assert pushed.force(right)[0] < 0.0
     assert pushed.force(base)[0] == pytest.approx(-pushed.force(right)[0], rel=1e-9)
     assert pushed.moment(base) != 0.0
@@ -107,7 +107,7 @@ def test_a_notch_opens_and_closes_as_the_load_has_it():
     rig.hold(box=((0.0, 0.0), (WIDTH, 1e-5)))
     head = rig.hold(box=((0.0, HEIGHT - 1e-5), (WIDTH, HEIGHT)))
     rig.drive(head, (0.0, 1.0))
-    pulled, pushed = rig.elastic(way=1e-6), rig.elastic(way=-1e-6)
+    pulled, pushed = rig.elastic(displacement=1e-6), rig.elastic(displacement=-1e-6)
     cut = pulled.cuts
     assert len(cut) > 1
     on = np.isin(pulled.point_contact, cut)
@@ -126,7 +126,7 @@ def test_the_run_goes_on_to_the_same_bits():
             rig.elastic({top: 3e6})
         rig.drive(top, (0.0, -1.0), against=floor)
         if asks:
-            rig.elastic(way=1e-6)
+            rig.elastic(displacement=1e-6)
         rig.strain_to(2e-6)
         if asks:
             rig.elastic(load=100.0)
@@ -139,12 +139,12 @@ def test_a_free_motion_is_named_in_one_line():
     rig = made()
     floor, top = rig.platen(0), rig.platen(2)
     refusal("along x.*hold nodes", rig.elastic, {top: 1e6})
-    refusal("driven parts = none", rig.elastic, way=1e-6)
+    refusal("driven parts = none", rig.elastic, displacement=1e-6)
     refusal("pressure on a part = -1", rig.elastic, {top: -1.0})
     refusal("must be a table", rig.elastic, [top])
     rig.drive(top, (0.0, -1.0), against=floor)
     refusal("is driven, must not be", rig.elastic, {top: 1e6})
-    refusal("must be left out beside a load", rig.elastic, way=1e-6, load=1.0)
+    refusal("must be left out beside a load", rig.elastic, displacement=1e-6, load=1.0)
 
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
@@ -154,7 +154,7 @@ def test_a_beam_is_as_stiff_as_when_it_is_loaded(model):
     rollers = [rig.support((x, 0.0)) for x in (0.005, 0.045)]
     pin = rig.support((0.025, 0.012), pinned=True)
     rig.drive(pin, (0.0, -1.0), against=rollers)
-    state = rig.elastic(way=1e-6)
+    state = rig.elastic(displacement=1e-6)
     assert state.load == pytest.approx(sum(state.force(one)[1] for one in rollers), rel=1e-9)
     rig.strain_to(2e-7)  # a way of 0.2 um
     slope = np.polyfit(rig.record["displacement"], rig.record["load"], 1)[0]
@@ -165,8 +165,8 @@ def test_a_moment_turns_an_end_by_the_angle_that_asks_for_it():
     rig = made()
     base = rig.hold(box=((0.0, 0.0), (WIDTH, 1e-5)))
     head = rig.hold(box=((0.0, HEIGHT - 1e-5), (WIDTH, HEIGHT)))
-    rig.turn(head)
-    state = rig.elastic(way=1e-5)
+    rig.rotate(head)
+    state = rig.elastic(displacement=1e-5)
     assert state.moment(head) == pytest.approx(state.load, rel=1e-12)
     # a moment alone acts
     np.testing.assert_allclose(state.force(head), 0.0, atol=1e-9 * state.load / WIDTH)
@@ -184,7 +184,7 @@ def test_the_scale_of_a_loading_is_that_stiffness_whichever_part_is_pinned():
         places += [(0.5 * (length + side * inner), height) for side in (-1, 1)]
         parts = [rig.support(place, pinned=number == pinned) for number, place in enumerate(places)]
         rig.drive(parts[2:], (0.0, -1.0), against=parts[:2])
-        found += [rig.scales().modulus, rig.elastic(way=1e-6).load / 1e-6]
+        found += [rig.scales().modulus, rig.elastic(displacement=1e-6).load / 1e-6]
     # held once along x: statically determinate, so that it does not matter where
     np.testing.assert_allclose(found, found[0], rtol=1e-3)
 
@@ -210,7 +210,7 @@ def test_a_beam_lifts_off_the_roller_that_would_have_to_pull(dimension, model):
     far, middle, near = (rig.support(at(x, 0.0), pinned=x == 0.02) for x in (0.004, 0.02, 0.036))
     head = rig.support(at(0.026, 0.008))
     rig.drive(head, at(0.0, -1.0, 0.0), against=(far, middle, near))
-    state = rig.elastic(way=1e-6)
+    state = rig.elastic(displacement=1e-6)
     assert state.solutions > 1
     up = [state.force(one)[-1] / state.load for one in (far, middle, near)]
     # levers of 6 and 10 mm; in 2D a roller lies on edges near its place, in 3D on lines there
@@ -222,7 +222,7 @@ def test_a_beam_lifts_off_the_roller_that_would_have_to_pull(dimension, model):
     alone, at = rig_in(dimension, 0.04, 0.008, model)
     left = [alone.support(at(x, 0.0), pinned=x == 0.02) for x in (0.02, 0.036)]
     alone.drive(alone.support(at(0.026, 0.008)), at(0.0, -1.0, 0.0), against=left)
-    assert alone.elastic(way=1e-6).load == pytest.approx(state.load, rel=1e-6)
+    assert alone.elastic(displacement=1e-6).load == pytest.approx(state.load, rel=1e-6)
 
 
 @ONE_SIDED
@@ -232,7 +232,7 @@ def test_a_block_that_is_tilted_stands_on_its_edge(dimension, model):
     halves = [rig.support(at(x * WIDTH, 0.0), length) for x in (0.25, 0.75)]
     head = rig.support(at(0.875 * WIDTH, HEIGHT), pinned=True)
     rig.drive(head, at(0.0, -1.0, 0.0), against=halves)
-    state = rig.elastic(way=1e-6)
+    state = rig.elastic(displacement=1e-6)
     # a rigid one would press on thrice the distance from the load to the edge, 3/8 of its width
     lifted, pressed = (state.force(one) for one in halves)
     # in 2D both halves lie on the edges that the line between them crosses
@@ -248,10 +248,10 @@ def test_what_is_pulled_off_a_plate_bears_nothing_in_3d(model):
     base = rig.hold(box=((0.0, 0.0, 0.0), (0.6 * WIDTH, THICKNESS, 0.2 * HEIGHT)))
     right = rig.platen(1)
     rig.drive(right, (1.0, 0.0, 0.0), against=base)
-    state = rig.elastic(way=1e-6)  # it leaves
+    state = rig.elastic(displacement=1e-6)  # it leaves
     assert state.force(right) == state.force(base) == (0.0, 0.0, 0.0)
     assert np.abs(state.positions - state.reference).max() == 0.0
-    pushed = rig.elastic(way=-1e-6)
+    pushed = rig.elastic(displacement=-1e-6)
     assert pushed.force(right)[0] < 0.0
     assert pushed.force(base)[0] == pytest.approx(-pushed.force(right)[0], rel=1e-4)
     with pytest.raises(flexpm.InputError, match="nothing resists it"):

@@ -87,7 +87,7 @@ def test_a_disc_of_rigid_grains_is_that_of_the_steps():
 @pytest.mark.parametrize("tension", [False, True])
 def test_its_modulus_is_that_of_the_elastic_solve(model, tension):
     rig = made(model, tension=tension)
-    state = rig.elastic(way=1e-7)
+    state = rig.elastic(displacement=1e-7)
     young = flexpm.elastic(rig.built.specimen, model=model)["youngs_modulus"]
     if model == "flexible":
         assert state.load / AREA / (1e-7 / HEIGHT) == pytest.approx(young, rel=1e-6)
@@ -120,13 +120,13 @@ def test_a_piece_that_is_free_to_move_is_named_in_one_line(model):
     material = flexpm.materials.load("augig-table7").with_set("joint.slit.open=true")
     built = fresh(specimen.with_joints({"slit": cut}), material, model=model)
     rig = flexpm.rig(built, tension=True)
-    refusal("elastic: .*along x", rig.elastic, way=1e-7)
+    refusal("elastic: .*along x", rig.elastic, displacement=1e-7)
 
 
 def test_a_disc_lies_against_ever_more_of_its_plates():
     fine = flexpm.Specimen.disc(HEIGHT, THICKNESS, diameters=(4e-4, 6e-4), seed=3)
     rig = flexpm.rig(fresh(fine))
-    least, little, more = (rig.elastic(way=way) for way in (1e-9, 1e-6, 1.6e-4))
+    least, little, more = (rig.elastic(displacement=way) for way in (1e-9, 1e-6, 1.6e-4))
     # nothing pulls across the gaps before the rim: a disc on its tips is linear
     assert little.load == pytest.approx(1e3 * least.load, rel=1e-9)
     assert more.load > 1.2 * 160.0 * little.load > 0.0
@@ -142,7 +142,7 @@ def test_the_scene_is_not_changed():
     for asks in (False, True):
         rig = made("rigid")
         if asks:
-            rig.elastic(1e6, way=1e-7)
+            rig.elastic(1e6, displacement=1e-7)
         rig.strain_to(2e-5)
         if asks:
             rig.elastic(load=100.0)
@@ -156,8 +156,11 @@ def test_what_it_cannot_do_is_refused_in_one_line():
     rig = made()
     for asked, told in (
         (lambda: rig.elastic(-1.0), "elastic: pressure = -1.0 Pa, must be >= 0"),
-        (lambda: rig.elastic(way=np.nan), "elastic: way = nan m"),
-        (lambda: rig.elastic(way=1e-7, load=1.0), "elastic: way = 1e-07, must be left out"),
+        (lambda: rig.elastic(displacement=np.nan), "elastic: displacement = nan m"),
+        (
+            lambda: rig.elastic(displacement=1e-7, load=1.0),
+            "elastic: displacement = 1e-07, must be left out",
+        ),
         (lambda: rig.elastic(load="a"), "elastic: load = 'a'"),
     ):
         with pytest.raises(InputError) as refused:

@@ -140,7 +140,7 @@ def pressed_modulus(specimen: flexpm.Specimen, model: str) -> float:
     With few grains across it is not that of a large specimen.
     """
     bar = bar_of(specimen, model, specimen.mean_diameter, 1.0, free=False)
-    state = bar.rig.elastic(way=PLATEAU)
+    state = bar.rig.elastic(displacement=PLATEAU)
     place, moved = state.reference[:, -1], (state.positions - state.reference)[:, -1]
     inner = np.abs(place - 0.5 * bar.length) < 0.4 * bar.length
     strain = -np.polyfit(place[inner], moved[inner], 1)[0]
@@ -189,7 +189,7 @@ def followed(bar: Bar, pulse: float, until: float) -> Seen:
 
     places = bar.rig.built.snapshot().reference[:, -1]
     bar.rig.watch = look
-    bar.rig.follow([*times, until], [*PLATEAU * rise(times, duration), PLATEAU], by="way")
+    bar.rig.follow([*times, until], [*PLATEAU * rise(times, duration), PLATEAU], by="displacement")
     bar.rig.watch = None
     return Seen(*map(np.array, zip(*rows, strict=True)), places)
 

@@ -52,7 +52,7 @@ def test_a_block_slides_as_coulomb_says_or_not_at_all(model, beyond):
     rig.hold(where=below)
     block = [yade.O.bodies[body].state for body in built.solver.bodyIds]
     block = [one for one in block if not below(one.pos[0], one.pos[1])]
-    rig.settle(moving=beyond > 0.0, crossings=5 if beyond > 0.0 else 100)
+    rig.settle(moving=beyond > 0.0, transits=5 if beyond > 0.0 else 100)
     built.run(1)
     down = np.array([-math.cos(dip), -math.sin(dip)])
     start, speed = middle_of(block, "pos"), middle_of(block, "vel") @ down

@@ -48,7 +48,7 @@ def balance_of(rig: PartRig) -> float:
 @pytest.mark.parametrize("model", MODELS)
 def test_pulled_ends_have_equal_forces_and_their_work_is_the_energy(bar, model):
     rig, (left, right) = held(bar, model)
-    rig.way_of("way", right, (1.0, 0.0))
+    rig.displacement_of("way", right, (1.0, 0.0))
     rig.drive([right], (1.0, 0.0), against=[left])
     rig.strain_to(1e-6, rate=5e-4)
     record = rig.record
@@ -69,7 +69,7 @@ def test_pulled_ends_have_equal_forces_and_their_work_is_the_energy(bar, model):
 @pytest.mark.parametrize("model", MODELS)
 def test_a_turned_end_bears_a_moment_alone(bar, model):
     rig, (left, right) = held(bar, model)
-    rig.turn([right])
+    rig.rotate([right])
     rig.strain_to(1e-5, rate=1e-3)
     record = rig.record
     assert right.angle == pytest.approx(record["displacement"][-1], rel=1e-9)
@@ -88,9 +88,9 @@ def test_a_turned_end_bears_a_moment_alone(bar, model):
 @pytest.mark.parametrize("model", MODELS)
 def test_ends_turn_about_a_point_and_against_each_other(bar, model):
     rig, (left, right) = held(bar, model)
-    rig.turn([right], [left], about=(LENGTH, HEIGHT / 2))
+    rig.rotate([right], [left], about=(LENGTH, HEIGHT / 2))
     rig.strain_to(1e-5, rate=1e-3)
-    assert right.place == left.place == (LENGTH, HEIGHT / 2)
+    assert right.position == left.position == (LENGTH, HEIGHT / 2)
     assert left.angle == -right.angle
     assert rig.record["load"][-1] == pytest.approx(right.moment - left.moment, rel=1e-9)
     # the left end goes up, the right one does not: that takes a shear force
@@ -114,7 +114,7 @@ def test_other_threads_and_a_saved_scene_give_the_same_bits(bar, tmp_path, model
     records = []
     for threads in (1, 2):
         rig, (left, right) = held(bar, model, threads)
-        rig.turn([right], strength=0.5)
+        rig.rotate([right], strength=0.5)
         rig.start(Loading(kind="waiting"))
         for step in range(600):
             if threads == 2 and step == 300:
@@ -124,7 +124,7 @@ def test_other_threads_and_a_saved_scene_give_the_same_bits(bar, tmp_path, model
                 rig = PartRig(rig.built)
                 right = rig.hold(where=lambda x, y: x > LENGTH - END)
                 left = rig.hold(box=((0.0, 0.0), (END, HEIGHT)))
-                rig.turn([right], strength=0.5)
+                rig.rotate([right], strength=0.5)
             yade.O.step()
         records.append([*rig.record.array[-1], *right.force, right.moment, right.work, left.moment])
         assert right.moment > 0.0
@@ -145,7 +145,7 @@ def test_nodes_that_cannot_be_held_are_refused_in_one_line(bar):
         (lambda: rig.hold(disc=((LENGTH / 2, 0.001), 0.002)), "lies on a plate"),
         (lambda: rig.support((0.001, 0.0)), "support: .* lies on a plate"),
         (lambda: rig.platen(3), "platen: .* lies on a plate"),
-        (lambda: rig.turn([plate]), "turn: part = support at .* must be held nodes; call hold"),
+        (lambda: rig.rotate([plate]), "rotate: part = support at .* must be held nodes; call hold"),
         (lambda: left.move((float("nan"), 0.0)), "move: velocity: x = nan m/s, must be finite"),
     ):
         refusal(message, wrong)

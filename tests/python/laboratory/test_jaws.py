@@ -32,7 +32,7 @@ def made(model: str = "rigid", **leaves: object) -> flexpm.PartRig:
 
 def between(rig: flexpm.PartRig, radius: float, machine: float | None = None, **jaws: object):
     top, low = (rig.jaw((0.0, y), radius, **jaws) for y in (RADIUS, -RADIUS))
-    rig.contact_of("angle", top)
+    rig.contact_angle_of("angle", top)
     area = DIAMETER * THICKNESS
     rig.drive(
         top, DOWN, against=low, length=DIAMETER, area=area, strength=STRENGTH, machine=machine
@@ -121,24 +121,24 @@ def test_a_jaw_of_the_discs_own_radius_lies_on_its_angle_at_once():
     rig.strain_to(1e-4)
     assert rig.record["angle"][-1] == pytest.approx(0.5, rel=0.02)
     assert top.width == pytest.approx(2.0 * RADIUS * np.sin(0.25), rel=0.02)
-    found = rig.laid["parts"][0]
+    found = rig.layout["parts"][0]
     assert found["radius"] == RADIUS
 
 
 def test_a_smooth_jaw_of_the_discs_own_radius_leaves_it_free_to_turn():
     rig = made()
     between(rig, RADIUS, angle=0.5)
-    for call in (lambda: rig.strain_to(1e-5), lambda: rig.elastic(way=1e-8)):
+    for call in (lambda: rig.strain_to(1e-5), lambda: rig.elastic(displacement=1e-8)):
         assert "give a jaw friction" in refusal("against turning = 0, must be at least 1; ", call)
 
 
 def test_the_static_solution_has_the_force_of_the_steps():
     rig = made("flexible")
     top, low = between(rig, RADIUS, angle=0.5, friction=0.3)
-    state = rig.elastic(way=1e-8)
+    state = rig.elastic(displacement=1e-8)
     assert state.force(low)[1] == pytest.approx(-state.force(top)[1], rel=1e-9)
     rig.strain_to(1e-3)
-    rig.dwell(60.0, by="way")
+    rig.dwell(60.0, by="displacement")
     way = rig.record["displacement"][-1]
     assert top.force[1] == pytest.approx(state.force(top)[1] * way / 1e-8, rel=0.02)
 
@@ -149,7 +149,7 @@ def test_a_jaw_with_friction_in_a_soft_machine_bears_in_series_with_it(model):
     jaws = {"angle": 0.9, "friction": 0.3}
     rig = made(model)
     between(rig, RADIUS, **jaws)
-    stiff = rig.elastic(way=1e-8)
+    stiff = rig.elastic(displacement=1e-8)
     machine = 0.5 * stiff.load / 1e-8
     rig = made(model)
     top, low = between(rig, RADIUS, machine=machine, **jaws)
@@ -157,13 +157,13 @@ def test_a_jaw_with_friction_in_a_soft_machine_bears_in_series_with_it(model):
     assert soft.way == pytest.approx(3e-8, rel=1e-6)
     assert soft.displacement(top)[1] == pytest.approx(-1e-8, rel=1e-6)
     rig.strain_to(1e-3, rate=4.0)
-    rig.dwell(60.0, by="way")
+    rig.dwell(60.0, by="displacement")
     record = rig.record
     assert record["machine_energy"][-1] == pytest.approx(
         0.5 * top.force[1] ** 2 / machine, rel=1e-9
     )
     crosshead = record["displacement"][-1] - top.force[1] / machine
-    assert record["crosshead"][-1] == pytest.approx(crosshead, rel=1e-9)
+    assert record["crosshead_displacement"][-1] == pytest.approx(crosshead, rel=1e-9)
     assert top.force[1] == pytest.approx(-low.force[1], rel=1e-3)
     energies = require_balance(rig, 1e-6)
     assert energies["friction_energy"] > 1e-4 * energies["boundary_work"]
@@ -174,9 +174,9 @@ def test_strips_soften_what_a_disc_lies_on():
     for strip in (None, 1e14, 1e11):
         rig = made("flexible")
         between(rig, RADIUS, angle=0.5, friction=0.3, strip=strip)
-        stiffness.append(rig.elastic(way=1e-9).load / 1e-9)
+        stiffness.append(rig.elastic(displacement=1e-9).load / 1e-9)
     assert stiffness[0] > stiffness[1] > 2.0 * stiffness[2]
-    assert rig.laid["parts"][0]["strip"] == 1e11
+    assert rig.layout["parts"][0]["strip"] == 1e11
 
 
 def test_what_is_no_jaw_of_a_disc_is_refused_in_one_line():
@@ -188,7 +188,7 @@ def test_what_is_no_jaw_of_a_disc_is_refused_in_one_line():
         (lambda: rig.jaw(top, np.inf), "jaw: radius = inf"),
         (lambda: rig.jaw(top, 1.0, angle=0.0), "jaw: angle = 0.0 rad, must be > 0"),
         (lambda: rig.jaw(top, 1.0, angle=3.0), "jaw: angle = 3.0 rad, must be <="),
-        (lambda: rig.jaw((0.0, 0.5 * RADIUS), 1.0), "jaw: place = (0, 0.0075) m, must be on"),
+        (lambda: rig.jaw((0.0, 0.5 * RADIUS), 1.0), "jaw: position = (0, 0.0075) m, must be on"),
         (lambda: rig.jaw(top, 1.0, friction=-1.0), "jaw: friction = -1.0, must be >= 0"),
         (lambda: rig.jaw(top, 1.0, strip=0.0), "jaw: strip = 0.0 Pa/m, must be > 0"),
     ):
@@ -201,7 +201,7 @@ def test_what_is_no_jaw_of_a_disc_is_refused_in_one_line():
     plain = flexpm.PartRig(fresh(flexpm.Specimen.rectangle(0.02, 0.02, 0.01), None, "rigid"))
     refusal("jaw: specimen = no disc", plain.jaw, (0.01, 0.02), 0.05)
     side = plain.platen(2)
-    refusal("gauge angle: part = platen .* must be a jaw", plain.contact_of, "angle", side)
+    refusal("gauge angle: part = platen .* must be a jaw", plain.contact_angle_of, "angle", side)
 
 
 def test_jaws_in_a_folder_are_made_again_to_the_same_bytes(tmp_path, monkeypatch):
@@ -238,7 +238,7 @@ def test_a_disc_splits_between_jaws_with_friction(disc, model):
     high = rig.jaw((0, 0, RIM), 1.5 * RIM, friction=0.3)
     assert high.normal == pytest.approx((0.0, 0.0, -1.0))
     assert high.contact_angle == 0.0
-    rig.contact_of("contact", high)
+    rig.contact_angle_of("contact", high)
     area = 0.5 * math.pi * SOLID_DIAMETER * DEPTH
     rig.drive(high, (0, 0, -1), against=low, area=area, length=SOLID_DIAMETER, strength=15e6)
     rig.load(flexpm.Loading(kind="waiting"))
@@ -268,7 +268,7 @@ def test_a_jaw_of_the_discs_own_radius_touches_all_of_its_angle(disc):
     rig.drive(high, (-0.8, 0.0, -0.6), against=low)
     # pushed aside over a smooth support, its points neither stay open nor stick
     with pytest.raises(InputError, match="points of plates stay open or closed"):
-        rig.elastic(way=1e-6)
+        rig.elastic(displacement=1e-6)
     plates = rig.built.solver.plates()
     assert plates[high.number]["radius"] == pytest.approx(RIM, rel=0.02)  # of the prism
     assert [part["face"] != [] for part in rig.parts] == [True, True]
@@ -296,7 +296,7 @@ def test_what_no_jaw_is_is_refused(disc):
     first = rig.jaw((0, 0, RIM), 1.5 * RIM, angle=1.0)
     held = rig.hold(ball=((0.0, 0.5 * DEPTH, 0.0), 0.3 * RIM))
     refused = (
-        (lambda: rig.jaw((0, 0.5 * RIM, 0), RIM), "place = .* m, must be on the rim"),
+        (lambda: rig.jaw((0, 0.5 * RIM, 0), RIM), "position = .* m, must be on the rim"),
         (lambda: rig.jaw((RIM, 0, 0), 0.5 * RIM), "radius = 0.006 m, must be >= 0.012 m"),
         (lambda: rig.jaw((RIM, 0, 0), RIM), "angle = None, must be given"),
         (lambda: rig.jaw((RIM, 0, 0), 2 * RIM, angle=3.0), "angle = 3.0 rad, must be <="),
@@ -307,8 +307,8 @@ def test_what_no_jaw_is_is_refused(disc):
             lambda: rig.support((0, 0.5 * DEPTH, RIM), 0.3 * RIM, normal=(0, 0, -1)),
             "before two plates = .*take another place",
         ),
-        (lambda: rig.contact_of("contact", rig.platen(4)), "part = .*, must be a jaw"),
-        (lambda: rig.contact_of("contact", held), "must be a support or a platen"),
+        (lambda: rig.contact_angle_of("contact", rig.platen(4)), "part = .*, must be a jaw"),
+        (lambda: rig.contact_angle_of("contact", held), "must be a support or a platen"),
         (lambda: rig.press(first, 1e6), "area of a plate = 0 m\\^2"),
     )
     for call, told in refused:

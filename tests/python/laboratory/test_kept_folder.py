@@ -148,7 +148,7 @@ def test_the_result_is_valid(whole):
     [
         ("1e5)", "2e5)", "call 4 = press(part={'part': ['plate', 0]}, pressure=100000.0) there"),
         ("(4e-7, 1e-7)", "(4e-7, 2e-7)", "strain_to(strain=1e-07, rate=4.0) there"),
-        ("(2.0 * h, 0.0)", "(2.1 * h, 0.0)", "call 5 = support(place=[0.024, 0.0]) there"),
+        ("(2.0 * h, 0.0)", "(2.1 * h, 0.0)", "call 5 = support(position=[0.024, 0.0]) there"),
         ("seed=1", "seed=2", "holds a checkpoint of another run (seed = 1 there, 2 here)"),
         ("x < 0.3", "x < 0.4", "hold: part = another one"),
     ],

@@ -62,7 +62,7 @@ def test_what_turns_and_what_has_a_length_tell_it_in_their_units(tmp_path):
     beam = flexpm.Specimen.rectangle(0.03, 0.008, 0.01, seed=1)
     rig = flexpm.PartRig(fresh(beam, model="rigid"))
     rig.hold(box=((0.0, 0.0), (0.006, 0.008)))
-    rig.turn(rig.hold(where=lambda x, y: x > 0.024), strength=1e-3)
+    rig.rotate(rig.hold(where=lambda x, y: x > 0.024), strength=1e-3)
     rig.load(WAITING)
     assert " rad, where a loading ends by default" in rig.warnings[-1]
 

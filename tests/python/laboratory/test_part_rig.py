@@ -44,7 +44,7 @@ def bent(beam: flexpm.Specimen, model: str) -> tuple[PartRig, list[Part]]:
     rollers = [rig.support((middle + side * SPAN / 2, 0.0)) for side in (-1, 1)]
     head = rig.support((middle, HEIGHT), pinned=True)
     rig.gauge("under", (middle - 0.003, 0.0), (middle + 0.003, 0.0), strain=True)
-    rig.way_of("down", head, (0.0, -2.0))
+    rig.displacement_of("down", head, (0.0, -2.0))
     rig.drive([head], (0.0, -1.0), against=rollers)
     return rig, [*rollers, head]
 
@@ -88,7 +88,7 @@ def test_forces_of_parts_balance_and_their_work_is_the_energy(beam, model):
     kept = sum(record[f"{name}_energy"][-1] for name in ("elastic", "kinetic", "damping"))
     assert work == pytest.approx(kept, rel=0.02)
     assert parts[2].displacement[1] == pytest.approx(-record["displacement"][-1], rel=0.02)
-    assert parts[0].place[1] == pytest.approx(0.0, abs=1e-9)
+    assert parts[0].position[1] == pytest.approx(0.0, abs=1e-9)
     assert rig.warnings == []
 
 

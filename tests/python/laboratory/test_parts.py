@@ -53,11 +53,11 @@ def test_a_call_that_is_refused_counts_nothing():
         refusal("", slip)
     (left, right), pin = beam(rig)
     held = rig.hold(box=((0.013, 0.004), (0.017, 0.007)), axes="x")
-    places = [part.place[0] for part in (left, right, pin)]
+    places = [part.position[0] for part in (left, right, pin)]
     assert places == pytest.approx([0.003, 0.027, 0.015], abs=1e-12)
     assert [part.number for part in (left, right, pin, held)] == [0, 1, 2, 0]
     assert [part.kind for part in (left, pin, held)] == ["support", "support", "held nodes"]
-    assert str(right) == f"support at ({right.place[0]:g}, 0) m"
+    assert str(right) == f"support at ({right.position[0]:g}, 0) m"
     assert held.axes == "x"
 
 
@@ -68,17 +68,17 @@ def test_a_part_is_where_its_load_acts(model):
     rollers = [rig.support(place) for place in asked]
     head = rig.support((0.015, HEIGHT), length=0.003, pinned=True)
     for roller, place in zip(rollers, asked, strict=True):
-        assert roller.place == pytest.approx(place, abs=1e-12)
+        assert roller.position == pytest.approx(place, abs=1e-12)
         assert roller.requested_position == place
-    assert head.place == pytest.approx((0.015, HEIGHT), abs=1e-12)
+    assert head.position == pytest.approx((0.015, HEIGHT), abs=1e-12)
     # only half of it lies on the outline: it bears in the middle of that half
     side = rig.support((LENGTH, 0.0), length=0.002)
-    assert side.place == pytest.approx((LENGTH - 0.0005, 0.0), abs=1e-12)
+    assert side.position == pytest.approx((LENGTH - 0.0005, 0.0), abs=1e-12)
     assert side.requested_position == (LENGTH, 0.0)
     wall = rig.platen(3)
-    assert wall.place == pytest.approx((0.0, 0.5 * HEIGHT), abs=1e-12)
+    assert wall.position == pytest.approx((0.0, 0.5 * HEIGHT), abs=1e-12)
     assert wall.requested_position is None
-    assert rig.parts[-1]["place"] == pytest.approx([0.0, 0.5 * HEIGHT], abs=1e-12)
+    assert rig.parts[-1]["position"] == pytest.approx([0.0, 0.5 * HEIGHT], abs=1e-12)
 
 
 def test_moments_about_the_places_of_supports_vanish():
@@ -89,7 +89,7 @@ def test_moments_about_the_places_of_supports_vanish():
     force = sum(part.force[1] for part in (left, right))
     assert force == pytest.approx(-pin.force[1], rel=0.01)
     # what is left is less than half a support, a quarter of a grain: loads below one are not even
-    moment = sum(part.place[0] * part.force[1] for part in (left, right, pin))
+    moment = sum(part.position[0] * part.force[1] for part in (left, right, pin))
     assert abs(moment / force) < 0.5 * left.width
 
 
@@ -111,13 +111,13 @@ def test_parts_are_those_of_their_rig_and_there_once():
         (lambda: rig.drive(pin, down, against=[None]), "drive: part against = None, must be a"),
         (lambda: rig.drive("pin", down), "drive: part = 'pin', must be parts of the rig"),
         (lambda: rig.drive(None, down), "drive: part = None, must be parts of the rig"),
-        (lambda: rig.turn([held, held]), "turn: part = held nodes at"),
-        (lambda: rig.turn(held, held), "turn: part = held nodes at"),
-        (lambda: rig.turn(pin), "turn: part = support at"),
+        (lambda: rig.rotate([held, held]), "rotate: part = held nodes at"),
+        (lambda: rig.rotate(held, held), "rotate: part = held nodes at"),
+        (lambda: rig.rotate(pin), "rotate: part = support at"),
         (lambda: rig.press(held, 1e6), "press: part = held nodes at"),
         (lambda: rig.press(stranger, 1e6), "press: part = platen at"),
         (lambda: rig.press(pin, -1.0), "press: pressure = -1.0 Pa, must be >= 0"),
-        (lambda: rig.way_of("way", stranger, down), "gauge way: part = platen at"),
+        (lambda: rig.displacement_of("way", stranger, down), "gauge way: part = platen at"),
     ):
         refused(message, call)
     rig.drive(pin, down, against=(left, right))
@@ -156,7 +156,10 @@ def test_supports_lie_on_the_outline_and_have_its_length():
     for call, message in (
         (lambda: rig.support((0.015, 0.0), 1.0), "support: length of a support = 1 m, must be <="),
         (lambda: rig.support((0.015, 0.0), 1e300), "support: length of a support = 1e+300 m"),
-        (lambda: rig.support((0.015, -2e-4)), "support: place of a support = (0.015, -0.0002) m"),
+        (
+            lambda: rig.support((0.015, -2e-4)),
+            "support: place of a support = (0.015, -0.0002) m",
+        ),
         (lambda: rig.support((-0.0005, 0.0)), "support: place of a support = (-0.0005, 0) m"),
         (lambda: rig.hold(box=((0.0, 0.0),)), "hold: box = ((0.0, 0.0),), must be two opposite"),
         (lambda: rig.hold(box=[(0, 0)] * 3), "hold: box = [(0, 0), (0, 0), (0, 0)], must be two"),
@@ -177,7 +180,7 @@ def test_a_scene_that_is_taken_up_gives_each_part_back_whatever_the_order(model,
     held = rig.hold(box=((0.013, 0.003), (0.017, 0.007)))
     other = rig.hold(box=((0.005, 0.003), (0.008, 0.007)), axes="x")
     rig.gauge("g", (0.004, 0.0), (0.026, 0.0))
-    rig.way_of("w", pin, (0.0, -1.0))
+    rig.displacement_of("w", pin, (0.0, -1.0))
     rig.drive(pin, (0.0, -1.0), against=[left, right])
     rig.start(flexpm.Loading())
     model.run(20)
@@ -201,14 +204,14 @@ def test_a_scene_that_is_taken_up_gives_each_part_back_whatever_the_order(model,
     refused("gauge = 'h', must be one", lambda: again.gauge("h", (0.004, 0.0), (0.026, 0.0)))
     refused("gauge g: first = ", lambda: again.gauge("g", (0.01, 0.0), (0.026, 0.0)))
     refused("gauge g: direction = ", lambda: again.gauge("g", (0.004, 0), (0.026, 0), along=(0, 1)))
-    refused("gauge w: plate = 0", lambda: again.way_of("w", rollers[1], (0.0, -1.0)))
+    refused("gauge w: plate = 0", lambda: again.displacement_of("w", rollers[1], (0.0, -1.0)))
     refused("drive: driven = [0]", lambda: again.drive(rollers[1], (0.0, -1.0), against=rollers[0]))
     refused(
         "drive: area = 2.0, must be as the record has begun, 1.0",
         lambda: again.drive(head, (0.0, -1.0), against=rollers[::-1], area=2.0),
     )
     again.gauge("g", (0.004, 0.0), (0.026, 0.0))
-    again.way_of("w", head, (0.0, -1.0))
+    again.displacement_of("w", head, (0.0, -1.0))
     again.drive(head, (0.0, -1.0), against=rollers[::-1])
     assert len(again.record) > 0
 
@@ -236,9 +239,9 @@ def test_numbers_of_numpy_are_numbers_and_nonsense_is_refused_in_one_line():
         (lambda: rig.support((0.0, 0.005), friction=None), "support: friction = None, must be"),
         (lambda: rig.support((0.0, 0.005), friction=-1), "support: friction = -1, must be >= 0"),
         (lambda: rig.support((0.0, 0.005), pinned=2), "support: pinned = 2, must be true or"),
-        (lambda: rig.support(5), "support: place = 5, must be x and y"),
-        (lambda: rig.support("ab"), "support: place = 'ab', must be x and y"),
-        (lambda: rig.support((0.0, "b")), "support: place: y = 'b' m, must be a number"),
+        (lambda: rig.support(5), "support: position = 5, must be x and y"),
+        (lambda: rig.support("ab"), "support: position = 'ab', must be x and y"),
+        (lambda: rig.support((0.0, "b")), "support: position: y = 'b' m, must be a number"),
         (lambda: rig.support((0.0, 0.005), None, normal=3), "support: normal = 3, must be x and y"),
         (lambda: rig.drive(sides[0], (0, 1), area="a"), "drive: area = 'a' m2, must be a number"),
         (lambda: rig.drive(sides[0], (0, 1), area=0), "drive: area = 0 m2, must be > 0"),
@@ -260,20 +263,35 @@ def test_names_of_columns_are_checked_at_the_call():
     rig.drive(pin, (0.0, -1.0), against=rollers)
     rig.gauge("cmod", (0.012, 0.0), (0.018, 0.0))
     for call, message in (
-        (lambda: rig.also("f", "axial_stres"), "also: column = 'axial_stres', unknown (did you"),
-        (lambda: rig.also("load", "axial_stress"), "also = 'load', must not be the name of"),
-        (lambda: rig.also("set_point", "load"), "also = 'set_point', must not be the name of"),
-        (lambda: rig.also("", "load"), "also = '', must be a name of printable characters"),
+        (
+            lambda: rig.alias_column("f", "axial_stres"),
+            "alias_column: column = 'axial_stres', unknown (did you",
+        ),
+        (
+            lambda: rig.alias_column("load", "axial_stress"),
+            "alias_column = 'load', must not be the name of",
+        ),
+        (
+            lambda: rig.alias_column("set_point", "load"),
+            "alias_column = 'set_point', must not be the name of",
+        ),
+        (
+            lambda: rig.alias_column("", "load"),
+            "alias_column = '', must be a name of printable characters",
+        ),
         (lambda: rig.gauge("", (0, 0), (1, 1)), "gauge = '', must be a name"),
         (lambda: rig.gauge("a\nb", (0, 0), (1, 1)), "gauge = 'a\\nb', must be a name"),
         (lambda: rig.gauge(" a", (0, 0), (1, 1)), "gauge = ' a', must be a name"),
         (lambda: rig.gauge("set_point", (0, 0), (1, 1)), "gauge = 'set_point', must not be"),
         (lambda: rig.gauge("initial_energy", (0, 0), (1, 1)), "gauge = 'initial_energy', must"),
-        (lambda: rig.way_of("cmod", pin, (0, 1)), "gauge = 'cmod', must not be the name of"),
+        (
+            lambda: rig.displacement_of("cmod", pin, (0, 1)),
+            "gauge = 'cmod', must not be the name of",
+        ),
     ):
         refused(message, call)
-    rig.also("force", "load")
-    rig.also("opening", "cmod")
+    rig.alias_column("force", "load")
+    rig.alias_column("opening", "cmod")
     refused("gauge = 'force'", lambda: rig.gauge("force", (0, 0), (1, 1)))
     rig.strain_to(1e-8)
     assert np.array_equal(rig.record["force"], rig.record["load"])
@@ -351,7 +369,7 @@ def test_held_nodes_move_along_what_is_held_alone(model):
     rig = PartRig(built(model=model))
     clamp = rig.hold(box=((0.0, 0.0), (0.004, HEIGHT)))
     turned = rig.hold(box=((0.026, 0.0), (LENGTH, HEIGHT)))
-    rig.turn(turned)
+    rig.rotate(turned)
     refused("move: velocity of a node set along x", lambda: turned.move((1e-9, 0.0)))
     refused("drive: parts = others after turn", lambda: rig.drive(clamp, (1.0, 0.0)))
 

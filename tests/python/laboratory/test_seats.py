@@ -33,7 +33,7 @@ def beam(length: float | None, *, seated: bool = False, model: str = "flexible",
 
 
 def stiffness(length: float | None, *, seated: bool = False) -> float:
-    return beam(length, seated=seated)[0].elastic(way=1e-9).load
+    return beam(length, seated=seated)[0].elastic(displacement=1e-9).load
 
 
 def test_a_beam_on_long_seats_is_as_stiff_as_on_short_ones():
@@ -47,9 +47,9 @@ def test_a_beam_on_long_seats_is_as_stiff_as_on_short_ones():
 def test_seats_turn_as_the_ends_of_the_beam_do():
     """By 3 delta / span, of the part of the deflection that bends the beam."""
     rig, left, right = beam(0.012, seated=True)
-    rig.angle_of("tilt", left)
+    rig.rotation_of("tilt", left)
     way = 1e-6
-    state = rig.elastic(way=way)
+    state = rig.elastic(displacement=way)
     thin = 1.0 + 3.0 * (HEIGHT / SPAN) ** 2  # Timoshenko's, of the shear modulus that granite has
     assert state.angle(left) == pytest.approx(-3.0 * way / SPAN / thin, rel=0.1)
     assert state.angle(right) == pytest.approx(-state.angle(left), rel=0.05)
@@ -80,7 +80,7 @@ def test_a_seated_platen_divides_its_load_evenly():
         low = [rig.support((x, 0.0), 7.9e-3, friction=10.0, seated=True) for x in (0.004, 0.012)]
         top = rig.platen(2, seated=seated)
         rig.drive(top, DOWN, against=low)
-        state = rig.elastic(way=1e-7)
+        state = rig.elastic(displacement=1e-7)
         left, right = (state.force(part)[1] for part in low)
         shares.append(left / (left + right))
     assert shares[0] > 0.58
@@ -122,7 +122,7 @@ def test_a_seat_lies_on_an_inclined_face_and_else_its_corner_takes_all(model, sl
     pushed = -top.force[1]
     assert pushed == pytest.approx(2e6 * width * THICKNESS, rel=1e-3)
     # moment of the plate about the middle of its face, as what holds the column bears it
-    arm = (base.moment / pushed + base.place[0] - middle) / width
+    arm = (base.moment / pushed + base.position[0] - middle) / width
     if seated:
         # all of it bears; the grains before it are not alike
         assert top.angle == pytest.approx(slope, rel=1e-3)
@@ -138,9 +138,9 @@ def test_what_has_no_seat_is_not_read_and_a_folder_tells_it(tmp_path, monkeypatc
     monkeypatch.chdir(tmp_path)
     rig, left, _ = beam(0.012, seated=True, model="rigid", out="first", report=False)
     with pytest.raises(InputError, match="gauge tilt: part = plate at .*, must be seated"):
-        rig.angle_of("tilt", rig._all_parts[2])
+        rig.rotation_of("tilt", rig._all_parts[2])
     refusal("support: seated = 1, must be", rig.support, (0.0, 0.5 * HEIGHT), seated=1)
-    rig.angle_of("tilt", left)
+    rig.rotation_of("tilt", left)
     rig.strain_to(1e-7)
     rig.finish()
     told = json.loads((tmp_path / "first" / "result.json").read_text())["inputs"]
@@ -177,7 +177,7 @@ def block(model: str, *, seated: bool):
 
 def eccentricity(force: np.ndarray, moment: np.ndarray, base, middle: np.ndarray) -> float:
     """How far the load is off the middle of the platen, by what the base bears, in sizes [-]."""
-    whole = moment + np.cross(np.array(base.place) - middle, force)
+    whole = moment + np.cross(np.array(base.position) - middle, force)
     return float(np.hypot(*whole[:2]) / abs(force[2]) / SIZE)
 
 
@@ -187,13 +187,13 @@ def test_a_seated_platen_loads_through_its_middle(model):
     found = {}
     for seated in (False, True):
         rig, base, top = block(model, seated=seated)
-        middle = np.array(top.place)
-        state = rig.elastic(way=1e-8)
+        middle = np.array(top.position)
+        state = rig.elastic(displacement=1e-8)
         linear = eccentricity(
             *(np.array(of(base)) for of in (state.force, state.moment)), base, middle
         )
         if seated:
-            rig.angle_of("tilt", top)
+            rig.rotation_of("tilt", top)
         rig.strain_to(2e-6)
         rig.relax()
         stepped = eccentricity(np.array(base.force), np.array(base.moment), base, middle)
@@ -250,9 +250,9 @@ def test_a_plate_that_was_laid_on_a_mantle_loads_it_at_once(model, turned):
     base = rig.hold(box=((-SIZE, -SIZE, 0.0), (SIZE, SIZE, 0.15 * SIZE)))
     place = (0.5 * SIZE * x, 0.5 * SIZE * y, 0.65 * SIZE)
     plate = rig.support(place, 0.4 * SIZE, normal=(-x, -y, 0), seated=True)
-    assert np.linalg.norm(np.array(plate.place)[:2]) == pytest.approx(0.5 * SIZE, rel=0.06)
+    assert np.linalg.norm(np.array(plate.position)[:2]) == pytest.approx(0.5 * SIZE, rel=0.06)
     rig.drive(plate, (-x, -y, 0), against=base)
-    state = rig.elastic(way=1e-8)
+    state = rig.elastic(displacement=1e-8)
     rig.strain_to(1e-7)
     load, way = rig.record["load"][-1], rig.record["displacement"][-1]
     # few contacts bear at first, more as it goes on

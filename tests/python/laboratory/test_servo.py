@@ -50,7 +50,7 @@ def pulled(bar: flexpm.Specimen, model: str = "rigid", threads: int = 1) -> Part
     middle, apart = LENGTH / 2, bar.mean_diameter
     rig.gauge("opening", (middle - apart, HEIGHT / 2), (middle + apart, HEIGHT / 2))
     rig.gauge("closing", (middle + apart, HEIGHT / 2), (middle - apart, HEIGHT / 2), along=(1, 0))
-    rig.way_of("way", right, (1.0, 0.0))
+    rig.displacement_of("way", right, (1.0, 0.0))
     area = HEIGHT * 0.01
     rig.drive([right], (1.0, 0.0), against=[left], area=area, length=LENGTH, strength=10e6)
     return rig

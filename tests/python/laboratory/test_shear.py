@@ -234,8 +234,8 @@ def test_a_rig_presses_on_what_it_is_told(whole):
     floor, lid = rig.platen(0), rig.platen(2)
     refusal("confine: part = None", rig.confine, 1e6)
     rig.drive([floor], (0.0, 1.0))
-    rig.also("stress", "axial_stress")
-    refusal("also = 'stress'", rig.also, "stress", "load")
+    rig.alias_column("stress", "axial_stress")
+    refusal("alias_column = 'stress'", rig.also, "stress", "load")
     with pytest.raises(InputError, match="gauge side: length of its direction = 0"):
         rig.gauge("side", (0.0, 0.0), (0.01, 0.0), along=(0.0, 0.0))
     rig.press(lid, 1e6)

@@ -60,7 +60,7 @@ def pulled(dimension: int, model: str, energy: float, machine: float | None = No
 def compliance_of_rest(dimension: int, model: str) -> float:
     """Way over stress of the specimen and its platens, but not of what softens [m/Pa]."""
     rig, _ = pulled(dimension, model, 100.0)
-    return AREA[dimension] * 1e-9 / rig.elastic(way=1e-9).load - 1.0 / STIFFNESS
+    return AREA[dimension] * 1e-9 / rig.elastic(displacement=1e-9).load - 1.0 / STIFFNESS
 
 
 @MODELS
@@ -82,7 +82,7 @@ def test_static_solutions_are_in_series_with_the_machine(dimension, model):
     rest, area = compliance_of_rest(dimension, model), AREA[dimension]
     machine = 0.5 * area / rest
     rig, top = pulled(dimension, model, 100.0, machine)
-    state = rig.elastic(way=1e-8)
+    state = rig.elastic(displacement=1e-8)
     stiffness = 1.0 / (1.0 / machine + (rest + 1.0 / STIFFNESS) / area)
     assert state.load == pytest.approx(stiffness * 1e-8, rel=1e-6)
     assert state.displacement(top)[-1] == pytest.approx(1e-8 - state.load / machine, rel=1e-6)
@@ -106,7 +106,7 @@ def test_a_crosshead_stays_where_it_is_as_a_part_is_pressed(counted):
 
     rig, lid, jack = held(None)
     push = rig.elastic({lid: 1e6}).force(jack)[0]
-    machine = -rig.elastic({lid: 0.0}, way=1e-8).force(jack)[0] / 1e-8
+    machine = -rig.elastic({lid: 0.0}, displacement=1e-8).force(jack)[0] / 1e-8
     rig, lid, jack = held(machine)
     soft = rig.elastic({lid: 1e6})
     # half of what the wall without a spring would bear
@@ -132,10 +132,10 @@ def test_a_machine_is_given_once_and_to_one_plate_along_its_normal(dimension):
     rig.drive(top, up, machine=1e6)
     rig.drive(top, up, machine=1e6)  # as a scene that is taken up again does
     refusal("must be as given before, 1000000", rig.drive, top, up, machine=2e6)
-    assert rig.laid["drive"]["machine"] == 1e6
+    assert rig.layout["drive"]["machine"] == 1e6
     assert [one.get("machine") for one in rig.parts] == [None, 1e6]
     refusal("machine = behind a plate that does not load", rig.drive, rig.platen(1), side)
-    assert [one["gauge"] for one in rig.gauges] == ["crosshead", "machine_energy"]
+    assert [one["gauge"] for one in rig.gauges] == ["crosshead_displacement", "machine_energy"]
 
 
 def test_a_pressed_plate_is_taken_over_by_its_machine():
@@ -150,7 +150,7 @@ def test_a_pressed_plate_is_taken_over_by_its_machine():
     record = rig.record
     grown = record["load"][-1] - 5e6 * top.area
     assert record["load"][0] == pytest.approx(5e6 * top.area, rel=0.02)
-    behind = (record["crosshead"] - record["displacement"])[[0, -1]]
+    behind = (record["crosshead_displacement"] - record["displacement"])[[0, -1]]
     assert behind[1] == pytest.approx(grown / stiff, rel=0.01)
     assert abs(behind[0]) < 0.03 * behind[1]
     stored = 0.5 * record["load"][-1] ** 2 / stiff

@@ -93,7 +93,7 @@ def test_a_prism_in_the_middle_of_a_fine_disc_has_the_planes_stresses(diameter, 
         middle = places[np.argmin(np.linalg.norm(places - [0.0, y, 0.0], axis=1))]
         rig.hold(ball=(tuple(middle), near), axes=free)
     rig.drive([high], (0.0, 0.0, -1.0), against=[low])
-    state = rig.elastic(way=1e-9)
+    state = rig.elastic(displacement=1e-9)
     corners = state.reference[state.tetrahedra]
     volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
     x, y, z = corners.mean(axis=1).T

@@ -29,7 +29,7 @@ def test_an_elastic_box_is_loaded_as_without_control(model):
     rig = flexpm.SolidPartRig(fresh(box, "augig-table7", model))
     base, top = rig.platen(0), rig.platen(2)
     rig.gauge("across", (0.0, 0.5 * SIZE, 0.5 * SIZE), (SIZE, 0.5 * SIZE, 0.5 * SIZE))
-    rig.way_of("way", top, (0, 0, -1))
+    rig.displacement_of("way", top, (0, 0, -1))
     rig.drive(top, (0, 0, -1), against=base, area=SIZE**2, length=SIZE)
     with pytest.raises(InputError, match="must be one of load, across, way"):
         rig.load(flexpm.Loading(kind="waiting", control="stress"))

@@ -37,8 +37,8 @@ def test_platens_are_in_series_with_what_is_between_them():
     rig = rig_of(tall)
     base, top = rig.platen(0), rig.platen(2)
     assert top.area == pytest.approx(SIZE**2, rel=1e-9)
-    assert top.place == pytest.approx((0.5 * SIZE, 0.5 * SIZE, 2.0 * SIZE))
-    rig.way_of("way", top, (0, 0, -1))
+    assert top.position == pytest.approx((0.5 * SIZE, 0.5 * SIZE, 2.0 * SIZE))
+    rig.displacement_of("way", top, (0, 0, -1))
     rig.gauge("wide", (0.0, 0.5 * SIZE, SIZE), (SIZE, 0.5 * SIZE, SIZE))
     rig.drive(top, (0, 0, -1), against=base, area=SIZE**2, length=2.0 * SIZE)
     rig.strain_to(2e-4)
@@ -125,13 +125,13 @@ def test_a_part_is_where_its_load_acts(model):
     inside = rig.support((0.0041, 0.004, 0.0), 0.003)
     line = rig.support((0.006, 0.002, 0.008))
     wall = rig.platen(3)
-    assert corner.place == pytest.approx((0.011, 0.001, 0.0), abs=1e-9)
+    assert corner.position == pytest.approx((0.011, 0.001, 0.0), abs=1e-9)
     assert corner.requested_position == (0.012, 0.0, 0.0)
-    assert inside.place == pytest.approx((0.0041, 0.004, 0.0), abs=1e-9)
+    assert inside.position == pytest.approx((0.0041, 0.004, 0.0), abs=1e-9)
     assert inside.requested_position == (0.0041, 0.004, 0.0)
-    assert line.place == pytest.approx((0.006, 0.004, 0.008), abs=1e-9)
+    assert line.position == pytest.approx((0.006, 0.004, 0.008), abs=1e-9)
     assert line.requested_position == (0.006, 0.002, 0.008)
-    assert wall.place == pytest.approx((0.0, 0.004, 0.004), abs=1e-9)
+    assert wall.position == pytest.approx((0.0, 0.004, 0.004), abs=1e-9)
     assert wall.requested_position is None
 
 
@@ -140,8 +140,8 @@ def test_a_roller_is_a_line_across_the_depth():
     rig = rig_of(beam, "rigid")
     rollers = [rig.support((x, 0.004, 0.0)) for x in (0.004, 0.032)]
     head = rig.support((0.018, 0.004, 0.008), pinned=True)
-    assert rig.parts[2]["place"] == pytest.approx([0.018, 0.004, 0.008], abs=1e-12)
-    assert head.place == pytest.approx(head.requested_position, abs=1e-12)
+    assert rig.parts[2]["position"] == pytest.approx([0.018, 0.004, 0.008], abs=1e-12)
+    assert head.position == pytest.approx(head.requested_position, abs=1e-12)
     rig.drive(head, (0, 0, -1), against=rollers)
     rig.strain_to(2e-6)
     left, right = (one.force[2] for one in rollers)
@@ -169,16 +169,16 @@ def test_what_is_wrong_is_refused(box):
         (lambda: rig.platen(6), "side = 6, must be one of 0, 1, 2, 3, 4, 5"),
         (lambda: rig.platen(1, seated=1), "seated = 1, must be"),
         (lambda: rig.support((0.006, 0.006, 0.0), seated=True), "length = None, must be given"),
-        (lambda: rig.angle_of("tilt", top), "must be seated"),
+        (lambda: rig.rotation_of("tilt", top), "must be seated"),
         (lambda: rig.platen(1, bonded=True, friction=0.2), "must be 0 of one that is bonded"),
-        (lambda: rig.support((0.0, 0.0)), "place = \\(0.0, 0.0\\), must be x, y and z"),
+        (lambda: rig.support((0.0, 0.0)), "position = \\(0.0, 0.0\\), must be x, y and z"),
         (lambda: rig.support((0.006, 0.006, 0.006), 0.003), "off the nearest flat side"),
         (lambda: rig.support((0.006, 0.006, 0.0), -1.0), "length = -1.0 m, must be > 0"),
         (lambda: rig.support((0.006, 0.006, 0.0), bonded=True), "length = None, must be given"),
         (lambda: rig.support((0.0, 0.006, 0.006), normal=(1, 0, 0)), "must be along z"),
         (lambda: rig.support((0.0, 0.006, 0.008)), "triangles at x = 0 m, z = 0.008 m = 0"),
         (lambda: rig.hold(), "region = none or several, must be one of box, ball and where"),
-        (lambda: rig.turn([]), "turn: parts = none, must be at least 1"),
+        (lambda: rig.rotate([]), "rotate: parts = none, must be at least 1"),
         (lambda: rig.drive(top, (0, -1)), "must be x, y and z"),
         (lambda: rig.drive(top, (0, 0, 1), against=base) or rig.load(), "pulls without bond"),
         (lambda: top.width, "width of platen at .* has none in space"),
@@ -201,7 +201,7 @@ def test_held_nodes_bear_what_they_pull(model):
     rig = rig_of(tall, model)
     low = rig.hold(box=((0, 0, 0), (SIZE, SIZE, 0.2 * SIZE)))
     high = rig.hold(where=lambda _x, _y, z: z > 1.8 * SIZE, axes="xyz")
-    rig.way_of("way", high, (0, 0, 1))
+    rig.displacement_of("way", high, (0, 0, 1))
     rig.drive(high, (0, 0, 1), against=low)
     rig.load(flexpm.Loading(kind="waiting"))
     record = rig.record
@@ -227,7 +227,7 @@ def test_held_nodes_that_turn_twist_a_solid(model, tmp_path):
     low = rig.hold(box=((0, 0, 0), (SIZE, SIZE, 0.3 * SIZE)))
     high = rig.hold(where=lambda _x, _y, z: z > 1.7 * SIZE)
     about = (0.5 * SIZE, 0.5 * SIZE, SIZE)
-    rig.turn(high, low, about=about, axis=(0, 0, 2), strength=15.0)
+    rig.rotate(high, low, about=about, axis=(0, 0, 2), strength=15.0)
     rig.load(flexpm.Loading(kind="waiting", stop_ratio=0.7))
     record = rig.record
     load, angle = record["load"], record["displacement"]
@@ -254,10 +254,15 @@ def test_the_static_solution_of_a_solid_is_where_steps_lead(model):
     tall = flexpm.Specimen.box(SIZE, SIZE, 2.0 * SIZE, seed=1)
     rig = rig_of(tall, model)
     floor, top = rig.platen(0, bonded=True), rig.platen(2, bonded=True)
-    refusal("driven parts = none", rig.elastic, way=1e-6)
+    refusal("driven parts = none", rig.elastic, displacement=1e-6)
     rig.drive(top, (0, 0, -1), against=floor, strength=1e4)
-    refusal("way = 1e-06, must be left out beside a load", rig.elastic, way=1e-6, load=1.0)
-    found = rig.elastic(way=1e-6)
+    refusal(
+        "displacement = 1e-06, must be left out beside a load",
+        rig.elastic,
+        displacement=1e-6,
+        load=1.0,
+    )
+    found = rig.elastic(displacement=1e-6)
     assert found.load == pytest.approx(1e-6 * rig.scales().modulus, rel=1e-9)
     assert found.force(top) == pytest.approx((0.0, 0.0, -found.load), abs=1e-6 * found.load)
     assert found.force(floor) == pytest.approx((0.0, 0.0, found.load), abs=1e-6 * found.load)
@@ -275,7 +280,7 @@ def test_the_static_solution_of_a_solid_is_where_steps_lead(model):
     led = rig.built.snapshot().positions - found.reference
     told = way / found.way * (found.positions - found.reference)
     assert np.abs(led - told).max() < 0.02 * np.abs(told).max()
-    refusal("steps of the scene = .* must be 0", rig.elastic, way=1e-6)
+    refusal("steps of the scene = .* must be 0", rig.elastic, displacement=1e-6)
 
 
 def test_the_static_solution_of_a_twist_turns_what_is_held():
@@ -283,7 +288,7 @@ def test_the_static_solution_of_a_twist_turns_what_is_held():
     low = rig.hold(box=((0, 0, 0), (SIZE, SIZE, 0.3 * SIZE)))
     high = rig.hold(where=lambda _x, _y, z: z > 1.7 * SIZE)
     about = np.array([0.5 * SIZE, 0.5 * SIZE, 0.0])
-    rig.turn(high, about=tuple(about))
+    rig.rotate(high, about=tuple(about))
     found = rig.elastic(load=1.0)
     assert found.load == pytest.approx(1.0)
     assert found.moment(high)[2] == pytest.approx(1.0, rel=1e-6)
@@ -291,7 +296,7 @@ def test_the_static_solution_of_a_twist_turns_what_is_held():
     # nothing else acts: all forces sum to 0, and so do moments about a place
     couple = found.load / SIZE  # forces of this size make the moment
     assert np.add(found.force(high), found.force(low)) == pytest.approx(0.0, abs=1e-5 * couple)
-    across = np.cross(np.subtract(low.place, about), found.force(low))
+    across = np.cross(np.subtract(low.position, about), found.force(low))
     balance = np.add(found.moment(high), found.moment(low)) + across
     assert balance == pytest.approx(0.0, abs=1e-5)
     held = found.reference[:, 2] > 1.7 * SIZE
@@ -306,7 +311,7 @@ def test_a_plate_that_slides_takes_along_what_friction_holds(model, box):
     floor, lid = rig.platen(0, friction=0.5), rig.platen(2, friction=0.5)
     pin = rig.hold(ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.2 * SIZE))
     rig.drive(lid, (1.0, 0.0, 0.0), against=pin)
-    found = rig.elastic(way=1e-6)
+    found = rig.elastic(displacement=1e-6)
     push = found.force(lid)[0]
     assert push > 0.0
     total = np.add(np.add(found.force(floor), found.force(lid)), found.force(pin))
@@ -318,8 +323,8 @@ def test_held_nodes_without_a_point_bear_a_moment_alone(model):
     rig = rig_of(flexpm.Specimen.box(SIZE, SIZE, 2.0 * SIZE, seed=1), model)
     low = rig.hold(box=((0, 0, 0), (SIZE, SIZE, 0.3 * SIZE)))
     high = rig.hold(where=lambda _x, _y, z: z > 1.7 * SIZE)
-    rig.turn(high, axis=(1, 0, 0))
-    found = rig.elastic(way=1e-6)
+    rig.rotate(high, axis=(1, 0, 0))
+    found = rig.elastic(displacement=1e-6)
     assert found.angle(high) == pytest.approx((1e-6, 0.0, 0.0))
     couple = found.load / SIZE
     assert found.force(high) == pytest.approx((0.0, 0.0, 0.0), abs=1e-5 * couple)
@@ -330,8 +335,8 @@ def test_held_nodes_without_a_point_bear_a_moment_alone(model):
     way = np.multiply(angle / 1e-6, found.displacement(high))
     assert high.displacement == pytest.approx(way, abs=0.01 * np.linalg.norm(way))
     assert np.linalg.norm(high.force) < 5e-3 * couple
-    with pytest.raises(InputError, match="turn: about = .*, must be as the record has begun"):
-        rig.turn(high, about=(0.0, 0.0, 0.0), axis=(1, 0, 0))
+    with pytest.raises(InputError, match="rotate: about = .*, must be as the record has begun"):
+        rig.rotate(high, about=(0.0, 0.0, 0.0), axis=(1, 0, 0))
 
 
 def test_a_solid_turns_about_an_axis_as_told(box):
@@ -342,11 +347,11 @@ def test_a_solid_turns_about_an_axis_as_told(box):
         yade.O.step()
     assert held.angle == pytest.approx((0.0, 0.02, 0.0), rel=1e-9)
     for wrong, message in (
-        ({"axis": (0, 0, 0)}, "turn: axis: length of its direction = 0"),
-        ({"axis": (0, 1)}, "turn: axis: direction = .*, must be x, y and z"),
-        ({"about": (0, 1)}, "turn: about = .*, must be x, y and z"),
+        ({"axis": (0, 0, 0)}, "rotate: axis: length of its direction = 0"),
+        ({"axis": (0, 1)}, "rotate: axis: direction = .*, must be x, y and z"),
+        ({"about": (0, 1)}, "rotate: about = .*, must be x, y and z"),
         ({"back": held}, "is there twice"),
-        ({"area": 0.0}, "turn: area = 0"),
+        ({"area": 0.0}, "rotate: area = 0"),
     ):
         refusal(message, rig.turn, held, **wrong)
 

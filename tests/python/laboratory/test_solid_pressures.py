@@ -102,8 +102,10 @@ def test_a_static_solution_under_pressures_is_where_steps_lead(box, model):
     refusal("is driven, must not be", rig.elastic, {top: 1e6})
     refusal("pressures = 3, must be a table", rig.elastic, 3)
     # a plate without a pressure may move: nothing presses on it
-    assert rig.elastic({right: 0.0}, way=1e-6).force(right)[0] == pytest.approx(0.0, abs=1e-4)
-    assert rig.elastic(way=1e-6).force(right)[0] < -1.0
+    assert rig.elastic({right: 0.0}, displacement=1e-6).force(right)[0] == pytest.approx(
+        0.0, abs=1e-4
+    )
+    assert rig.elastic(displacement=1e-6).force(right)[0] < -1.0
     assert yade.O.iter == 0
     rig.press(pressures)
     for part in pressures:

@@ -77,11 +77,11 @@ def test_what_nothing_holds_does_not_settle_and_damping_comes_back():
     rig = made("rigid", dynamic=True, gravity=9.81)
     rig.platen(1)
     with pytest.raises(SimulationError, match=r"settle: reactions lack 1 of the weight") as raised:
-        rig.settle(crossings=5)
+        rig.settle(transits=5)
     assert "plate at (0.012, " in str(raised.value) and "\n" not in str(raised.value)
     assert rig.built.damping == 0.0
     assert rig.built.solver.gravity[1] == -9.81
-    rig.settle(crossings=5, moving=True)
+    rig.settle(transits=5, moving=True)
 
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
@@ -167,7 +167,7 @@ def test_a_load_stays_is_taken_off_and_comes_again(model):
 
 def test_a_cycle_by_way_ends_where_it_is_to_be():
     rig, _, _ = between("rigid")
-    rig.cycle(4e-6, 2, by="way", low=1e-6)
+    rig.cycle(4e-6, 2, by="displacement", low=1e-6)
     way = rig.record["displacement"]
     assert way.max() == pytest.approx(4e-6, rel=0.05)
     assert way[-1] == pytest.approx(1e-6, rel=0.05)
@@ -225,9 +225,9 @@ def test_what_stages_cannot_do_is_refused_in_one_line():
         (lambda: rig.settle(), "settle: gravity = 0 m/s2, must be above 0"),
         (lambda: rig.unload(), "unload: loading = none, must have begun"),
         (lambda: rig.dwell(by="load"), "dwell: loading = none"),
-        (lambda: rig.dwell(0.0), "dwell: crossings = 0"),
+        (lambda: rig.dwell(0.0), "dwell: transits = 0"),
         (lambda: rig.dwell(by="force"), "dwell: by = 'force'"),
-        (lambda: rig.relax(crossings=math.nan), "relax: crossings = nan"),
+        (lambda: rig.relax(transits=math.nan), "relax: transits = nan"),
         (lambda: rig.cycle(1.0, 0), "cycle: count = 0"),
         (lambda: rig.cycle(1.0, low=1.0), "cycle: amplitude = 1 N, must not be that of low"),
         (lambda: rig.cycle(-1.0), "cycle: load = -1 N, must not be below 0: plate at"),

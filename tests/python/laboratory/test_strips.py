@@ -24,7 +24,7 @@ def between_strips(model: str, first: float | None, second: float | None, **leav
 
 
 def compliance(model: str, first: float | None, second: float | None) -> float:
-    return 1e-7 / between_strips(model, first, second)[0].elastic(way=1e-7).load
+    return 1e-7 / between_strips(model, first, second)[0].elastic(displacement=1e-7).load
 
 
 @pytest.mark.parametrize("strips", [(None, None), (1e12, None), (1e12, 3e12), (1e11, 2e11)])
@@ -47,7 +47,7 @@ def test_strips_add_to_rigid_grains_what_they_give_alone():
 
 def test_the_loaded_bar_comes_to_rest_at_the_same_stiffness():
     rig, top = between_strips("flexible", 1e12, 2e12)
-    state = rig.elastic(way=2e-6)
+    state = rig.elastic(displacement=2e-6)
     rig.strain_to(2e-6, rate=0.1)
     rig.relax()
     way = -top.displacement[1]

@@ -183,7 +183,7 @@ def test_doubts_about_what_moves():
         "kinetic energy = 3 % of the work at the peak",
         "kinetic energy = 11 % of the work at the end under a pressure",
     ]
-    assert lines[2].startswith("largest_parting = 1.55e+03 mean diameters")
+    assert lines[2].startswith("largest_separation = 1.55e+03 mean diameters")
 
 
 @pytest.mark.long

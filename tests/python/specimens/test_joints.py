@@ -267,7 +267,7 @@ def test_straight_joints_are_straight():
         for dip in (35.0, 50.0, 60.0):
             rise = 0.016 * math.tan(math.radians(dip))
             cut = whole.with_joints({"weak": [(-0.01, 0.012 - rise), (0.022, 0.012 + rise)]})
-            assert cut.joint_bends() == {"weak": 0.0}
+            assert cut.joint_deviations() == {"weak": 0.0}
 
 
 CROSSING = [[(-0.001, 0.01), (0.013, 0.014)], [(0.006, -0.001), (0.006, 0.025)]]
@@ -278,7 +278,7 @@ def test_joints_that_cross_are_straight_mostly():
     bent = 0
     for seed in range(1, 21):
         whole = Specimen.rectangle(0.012, 0.024, 0.01, seed=seed)
-        bends = whole.with_joints(dict(zip("ab", CROSSING, strict=True))).joint_bends()
+        bends = whole.with_joints(dict(zip("ab", CROSSING, strict=True))).joint_deviations()
         assert bends["a"] == 0.0
         bent += bends["b"] > 0.0
     assert bent == 5
@@ -289,29 +289,29 @@ def test_a_joint_that_bends_to_the_grains_says_so(rectangle, weak, tmp_path):
         Specimen.rectangle(0.012, 0.024, 0.01, seed=seed).with_joints({"weak": CROSSING})
         for seed in (25, 3)
     )
-    assert straight.joint_bends() == {"weak": 0.0}
-    found = bent.joint_bends()["weak"]
+    assert straight.joint_deviations() == {"weak": 0.0}
+    found = bent.joint_deviations()["weak"]
     edges = [off(joint_edges(bent), line).max(axis=1) for line in CROSSING]
     assert found == pytest.approx(np.minimum(*edges).max())
     assert found > 0.05 * bent.mean_diameter
     bent.save(tmp_path / "bent.json")
-    assert Specimen.load(tmp_path / "bent.json").joint_bends() == bent.joint_bends()
+    assert Specimen.load(tmp_path / "bent.json").joint_deviations() == bent.joint_deviations()
     rig = {"material": weak, "model": "rigid", "rate": 20.0}
     result = flexpm.run("uniaxial", bent, **rig)
-    assert result.joint_bend == found
-    assert sum(line.startswith(f"joint_bend = {found:.3g} m") for line in result.warnings) == 1
+    assert result.joint_deviation == found
+    assert sum(line.startswith(f"joint_deviation = {found:.3g} m") for line in result.warnings) == 1
     own = flexpm.PartRig(fresh(bent, weak, "rigid"))
     low, high = (own.hold(box=((0.0, y), (0.012, y + 0.002))) for y in (0.0, 0.022))
     own.drive([high], (0.0, -1.0), against=[low])
     own.load(flexpm.Loading(rate=20.0))
     assert own.warnings[0] in result.warnings
     silent = flexpm.run("uniaxial", straight, **rig)
-    assert silent.joint_bend == 0.0
-    assert not any("joint_bend" in line for line in silent.warnings)
+    assert silent.joint_deviation == 0.0
+    assert not any("joint_deviation" in line for line in silent.warnings)
     notch = rectangle.with_joints({"weak": [(0.0, 0.02), (0.007, 0.0213)]})
     notch = notch.with_joints({"weak": [(0.02, 0.03), (0.015, 0.03)]})
     assert len(notch.joints["weak"]) == 2
-    assert notch.joint_bends() == {"weak": 0.0}
+    assert notch.joint_deviations() == {"weak": 0.0}
 
 
 def test_pieces_have_the_mineral_of_their_grain(rectangle):

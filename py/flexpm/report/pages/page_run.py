@@ -358,11 +358,11 @@ def _networks_table(result: Result) -> Rows | None:
     """P21 of each set of a fracture network; None if there is none."""
     if not result.networks:
         return None
-    keys = ("asked", "drawn", "cut")
+    keys = ("target", "generated", "cut")
     rows = [
         (name, *(f"{found[key]:.4g}" for key in keys)) for name, found in result.networks.items()
     ]
-    note = "Drawn: traces in the specimen; cut: contacts that they have made."
+    note = "Generated: traces in the specimen; cut: contacts that they have made."
     return Rows("Fracture network, P21 [1/m]", ("joint", *keys), rows, note)
 
 

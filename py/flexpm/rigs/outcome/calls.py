@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -20,6 +21,7 @@ import numpy as np
 from ...arrays import IntArray
 from ...errors import InputError, SimulationError
 from ...files import Table
+from ...renamed import comparable, current_call
 from ...require import quoted
 from ...runs.loading_rate import Loading
 from ...runs.runner import Runner
@@ -82,7 +84,7 @@ class Calls:
             passes: The scene has what those of them have done that are over.
         """
         self._folder, self._runner = folder, runner
-        self._earlier, self._passes = [*earlier], passes
+        self._earlier, self._passes = [current_call(one) for one in earlier], passes
         self.made: list[Table] = []
         self.inside = False
 
@@ -211,7 +213,8 @@ def _asked(call: Table) -> Table:
         for key, one in call["with"].items()
         if isinstance(one, Mapping) and {_NODES, _OTHER} & one.keys()
     ]
-    return {"call": call["call"], "with": {**call["with"], **dict.fromkeys(chosen)}}
+    given = comparable({**call["with"], **dict.fromkeys(chosen)})
+    return {"call": call["call"], "with": given}
 
 
 def _text(call: Table) -> str:
@@ -238,6 +241,7 @@ class Again:
         Raises:
             InputError: for what is no call of this rig.
         """
+        call = current_call(call)
         function = getattr(type(self._rig), str(call["call"]), None)
         if function is None or not hasattr(function, "__wrapped__"):
             raise InputError(
@@ -247,7 +251,9 @@ class Again:
         given = {key: self._real(one) for key, one in call["with"].items()}
         raised = (call.get("raised") or [""])[0]
         try:
-            result = function(self._rig, **given)
+            with warnings.catch_warnings():  # the test may have been made with old names
+                warnings.simplefilter("ignore", FutureWarning)
+                result = function(self._rig, **given)
         except _CAUGHT as error:
             if type(error).__name__ != raised:
                 raise

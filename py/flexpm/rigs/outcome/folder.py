@@ -22,6 +22,7 @@ from ...kinds.registry import OWN
 from ...materials.mixing import is_brittle
 from ...models.grains import Model
 from ...models.spheres import SphereModel
+from ...renamed import comparable, current, current_stage
 from ...report.pages.page import FILE as REPORT
 from ...report.words import turns_by
 from ...results import measures
@@ -114,7 +115,7 @@ def inputs_of(rig: RigReadings, stages: Sequence[Table]) -> Table:
         loading=_loading(rig, stages),
         confinement=rig.confinement or 0.0,
     )
-    told = {"schema": SCHEMA, "repeatable": False, **rig.laid, "stages": [*stages]}
+    told = {"schema": SCHEMA, "repeatable": False, **rig.layout, "stages": [*stages]}
     content: Table = json.loads(json.dumps({**run.to_json(), **told, "doubts": rig.warnings}))
     return content
 
@@ -195,8 +196,9 @@ def _refuse_others(folder: Path, inputs: Table) -> None:
 def _is_earlier(file: Path, inputs: Table) -> bool:
     """Whether a result.json is that of the same test, at this or an earlier stage."""
     try:
-        there = read_json(file)["inputs"]
-        stages, now = there["stages"], inputs["stages"]
+        there = current(read_json(file))["inputs"]
+        stages = [comparable(current_stage(one)) for one in there["stages"]]
+        now = [comparable(one) for one in inputs["stages"]]
         same = all(_fixed(there, name) == _fixed(inputs, name) for name in _FIXED)
         # the last one may have been under way, without its last step
         pairs = zip(stages, now[: len(stages)], strict=True)
@@ -216,6 +218,6 @@ def _fixed(inputs: Table, name: str) -> object:
     if name == "material":
         return law_of(inputs[name])
     if name == "parts":
-        moving = ("place", "face")  # without erased grains a face is shorter
+        moving = ("position", "face")  # without erased grains a face is shorter
         return [{key: one[key] for key in one if key not in moving} for one in inputs.get(name, ())]
     return value

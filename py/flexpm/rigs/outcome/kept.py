@@ -29,6 +29,7 @@ from ...errors import InputError
 from ...files import Table, output_folder, read_json, refuse_folders
 from ...models.grains import Model
 from ...models.spheres import SphereModel
+from ...renamed import current_stage
 from ...results.result import Result
 from ...results.result_checks import UNFINISHED
 from ...runs.asked import write_report
@@ -93,7 +94,7 @@ class KeptTest:
         self._checkpoint = Checkpoint(self._folder, before, interval)
         found, told = self._checkpoint.found, self._checkpoint.told
         earlier = told.get("calls", []) if found else self._calls_of_result()
-        self._stages: list[Table] = told.get("stages", [])
+        self._stages: list[Table] = [current_stage(one) for one in told.get("stages", [])]
         self._reason: str = told.get("reason", "")
         if isinstance(built, SphereModel):
             self._reason = "YADE's own spheres"

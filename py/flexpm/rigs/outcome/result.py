@@ -70,12 +70,12 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
     result.tetrahedra = snapshot.elements
     if isinstance(built, Model):  # bonds of spheres tell no energy
         result.measure_emission(_event_rule(built.specimen, built.solver))
-        result.joint_bend = built.joint_bend
+        result.joint_deviation = built.joint_deviation
         result.largest_overlap = built.largest_overlap
         cuts = built.specimen.told_cuts.items()
         result.joint_cuts = {name: cut.to_json() for name, cut in cuts} or None
         result.networks = built.specimen.network_intensities() or None
-        result.loose_grains, result.largest_parting = built.parting(snapshot)
+        result.loose_grains, result.largest_separation = built.parting(snapshot)
     return result
 
 

@@ -45,7 +45,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
 
     def support(
         self,
-        place: Place,
+        position: Place,
         length: object = None,
         *,
         normal: Place = (0.0, 0.0, 0.0),
@@ -58,7 +58,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
         """Lay a plate against the part of the outside around a place.
 
         Args:
-            place: x, y and z, on the outside [m].
+            position: x, y and z, on the outside [m].
             length: Edge of the cube around the place, or edges of a box along x, y and z, in which
                 the outside lies before the plate [m]. None: a roller, which bears along a line
                 across the depth through x and z of the place, on the bottom or from above.
@@ -75,7 +75,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
             InputError: for a place that is not on the outside, or a size out of range.
         """
         seated = require_flag("support: seated", seated)
-        specimen, at = self._specimen, require_vector("support: place", place, axes=SPACE)
+        specimen, at = self._specimen, require_vector("support: position", position, axes=SPACE)
         inwards = require_vector("support: normal", normal, "", SPACE)
         if any(inwards):
             inwards = require_direction("support: normal", inwards, SPACE)
@@ -126,17 +126,17 @@ class SolidPartLayout(PartLayout, SolidGrains):
 
     def jaw(
         self,
-        place: Place,
+        position: Place,
         radius: float,
         *,
         angle: float | None = None,
         friction: float = 0.0,
         strip: float | None = None,
     ) -> Part:
-        """Lay a curved jaw across the depth of a disc, as of the plane; `contact_of` records it.
+        """Lay a curved jaw across the depth of a disc; `contact_angle_of` records where it touches.
 
         Args:
-            place: x, y and z of the jaw's middle, on the mantle; y does not count [m].
+            position: x, y and z of the jaw's middle, on the mantle; y does not count [m].
             radius: Radius of the arc, at least the disc's; 1.5 times that by the ISRM [m].
             angle: Angle of the disc before it [rad], at most 2 pi / 3, which it has by default; one
                 of the disc's own radius needs it.
@@ -151,7 +151,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
         """
         if self._specimen.kind != "solid-disc":
             raise InputError("jaw: specimen = no disc, must be one; lay supports")
-        x, y, z = require_vector("jaw: place", place, axes=SPACE)
+        x, y, z = require_vector("jaw: position", position, axes=SPACE)
         rim = 0.5 * self._specimen.dimensions["diameter"]
         jaw = Jaw.of((x, z), (0.0, 0.0), rim, radius, angle)
         values = (

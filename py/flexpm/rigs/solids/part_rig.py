@@ -14,6 +14,7 @@ from ...errors import InputError
 from ...files import Table
 from ...kinds.registry import OWN
 from ...models.grains import Model
+from ...renamed import with_old_names
 from ...runs.runner import Runner, Span
 from ..layout import before
 from ..outcome.calls import recording
@@ -26,15 +27,16 @@ from .part_layout import SolidPartLayout
 from .patches import sides_under
 
 
+@with_old_names
 @recording
 class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
     """A solid between parts: plates before parts of its outside, and sets of nodes.
 
     `PartRig` of a solid makes one; this name goes with version 0.4. Its calls are those of
     `PartRig`, places and directions with a third component: `support`, `platen`, `jaw`, `hold`,
-    `gauge`, `way_of`, `contact_of`, `angle_of`, `drive`, `turn`, `elastic`, then `settle`, `press`,
-    `fluid`, `load`, `strain_to`, `stress_to`, `relax`, `unload`, `cycle`, `follow`. Features of 2D
-    alone are refused. Deviation D101.
+    `gauge`, `displacement_of`, `contact_angle_of`, `rotation_of`, `drive`, `rotate`,
+    `elastic`, then `settle`, `press`, `fluid`, `load`, `strain_to`, `stress_to`, `relax`, `unload`,
+    `cycle`, `follow`. Features of 2D alone are refused. Deviation D101.
     """
 
     _axes = SPACE
@@ -62,7 +64,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         self._patches, self._traces = {}, {}
         super().__init__(built, kind=kind, runner=runner, **leaves)
 
-    def turn(
+    def rotate(
         self,
         parts: HeldNodes | Sequence[HeldNodes],
         back: HeldNodes | Sequence[HeldNodes] = (),
@@ -90,7 +92,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
             InputError: as `drive`.
         """
         sizes = {"area": area, "length": length, "strength": strength}
-        self._turn((parts, back), about, require_direction("turn: axis", axis, SPACE), sizes)
+        self._turn((parts, back), about, require_direction("rotate: axis", axis, SPACE), sizes)
 
     def excavate(self, *_: object, **__: object) -> NoReturn:
         """Refuse it: available in 2D only."""
@@ -122,7 +124,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
             {
                 "part": "plate",
                 **{name: one[name] for name in names},
-                "place": before(one),
+                "position": before(one),
                 **{
                     name: one[name]
                     for name in ("strip", "radius", "machine", "seated")
@@ -137,7 +139,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
                 "part": "held nodes",
                 "nodes": [int(node) for node in one["nodes"]],
                 "axes": one["axes"],
-                "place": before(one),
+                "position": before(one),
             }
             for one in self._solid.nodeSets()
         ]
@@ -164,7 +166,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         return not frame.drivenSets or (bool(frame.holding) and not frame.holdingSets)
 
     def _load_by(self, call: str, **asked: object) -> None:
-        super()._load_by(call, **asked, turns=call == "turn")
+        super()._load_by(call, **asked, turns=call == "rotate")
 
     def _begin_pressures(self, numbers: list[int], values: list[float]) -> Span:
         self._free(numbers)

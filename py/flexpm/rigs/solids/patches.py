@@ -172,8 +172,8 @@ def inwards_at(specimen: SolidSpecimen, place: Vector) -> FloatArray:
     nearest = min(off, key=lambda side: off[side])
     if off[nearest] > _OFF * specimen.mean_diameter:
         raise InputError(
-            f"support: place = {place}, is {off[nearest]:.3g} m off the nearest flat side, must be "
-            "on one; or give the normal"
+            f"support: position = {place}, is {off[nearest]:.3g} m off the nearest flat side, must "
+            "be on one; or give the normal"
         )
     return np.array(INWARDS[nearest])
 

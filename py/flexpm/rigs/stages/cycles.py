@@ -50,7 +50,7 @@ class PartCycles(PartPressures):
         Args:
             amplitude: Load [N; N m of what turns], or way of the driven parts [m, or rad].
             count: Number of cycles.
-            by: ``"load"`` or ``"way"``.
+            by: ``"load"`` or ``"displacement"``.
             low: Load or way at the other end of a cycle.
             rate: Factor on the default loading rate [-]; a way is gone at a constant rate.
 
@@ -80,7 +80,7 @@ class PartCycles(PartPressures):
         times: Sequence[float] | FloatArray | Path | str,
         values: Sequence[float] | FloatArray | None = None,
         *,
-        by: str = "way",
+        by: str = "displacement",
         rate: float = 1.0,
     ) -> None:
         """Follow a history of the load or the way of the driven parts.
@@ -95,7 +95,7 @@ class PartCycles(PartPressures):
             times: Rising [s], or a CSV file with a row of names, at most one row of units (as s, N,
                 kN, m, mm), and rows of time and value; columns behind them are left out.
             values: One for each time [N, or m]; None with a file.
-            by: ``"load"`` or ``"way"``.
+            by: ``"load"`` or ``"displacement"``.
             rate: Factor on the default loading rate [-], unused with real masses by way.
 
         Raises:
@@ -108,7 +108,7 @@ class PartCycles(PartPressures):
         instants, wanted = history_of(times, values, "N" if by == "load" else "m")
         self._require_scene("follow")
         self._require_bearing("follow", by, min(wanted))
-        in_time = by == "way" and self.built.dynamic
+        in_time = by == "displacement" and self.built.dynamic
         if in_time:
             self._require_driven("follow:")
             self._require_start(wanted)
@@ -135,7 +135,7 @@ class PartCycles(PartPressures):
 
     def _go(self, stage: str, by: str, before: float, value: float, rate: float) -> None:
         """Go to a load, the last of it ever slower, or to a way at a row of the record."""
-        if by == "way":
+        if by == "displacement":
             self._go_to_strain(stage, value / self._frame.length, rate)
             return
         near = value - _LAST_PART * (value - before)
@@ -181,7 +181,8 @@ class PartCycles(PartPressures):
         now = rows[-1] if rows else 0.0
         if abs(wanted[0] - now) > _SAME_WAY * max(map(abs, wanted)):
             raise InputError(
-                f"follow: row 1: way = {wanted[0]:g} m, must be where the parts are, {now:g} m"
+                f"follow: row 1: displacement = {wanted[0]:g} m, must be where the parts "
+                f"are, {now:g} m"
             )
 
     def _require_bearing(self, stage: str, by: str, least: float) -> None:

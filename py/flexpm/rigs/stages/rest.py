@@ -19,13 +19,13 @@ from .still import PartStill
 #: Crossings that a stage may be asked to take.
 CROSSINGS = Bounds(at_least=1.0, at_most=1e6)
 #: Directions in which a cycle or a history is told.
-WAYS = ("load", "way")
+WAYS = ("load", "displacement")
 
 
 class PartRest(PartStill):
     """Base of a rig of parts whose specimen settles, relaxes and is unloaded."""
 
-    def settle(self, *, moving: bool = False, crossings: float = REST_CROSSINGS) -> None:
+    def settle(self, *, moving: bool = False, transits: float = REST_CROSSINGS) -> None:
         """Let the specimen come to rest under its weight, which rises from 0 where nothing moved.
 
         Damping is on meanwhile (0.7, if it was below 0.2) and then what it was. At rest the
@@ -35,8 +35,8 @@ class PartRest(PartStill):
 
         Args:
             moving: What the weight sets in motion, as a block that slides or topples, goes on: no
-                error then, and damping ends after the crossings.
-            crossings: Times that a wave takes through the specimen, or a quarter of its slowest
+                error then, and damping ends after the transits.
+            transits: Times that a wave takes through the specimen, or a quarter of its slowest
                 swing, after which it must be at rest, or with `moving` damping ends, beside ten in
                 which the weight rises.
 
@@ -45,7 +45,7 @@ class PartRest(PartStill):
             SimulationError: if it does not come to rest.
         """
         moving = require_flag("settle: moving", moving)
-        crossings = require_number("settle: crossings", crossings, CROSSINGS)
+        transits = require_number("settle: transits", transits, CROSSINGS)
         self._require_scene("settle")
         if not (self.built.dynamic and self.built.gravity > 0.0):
             raise InputError(
@@ -54,9 +54,9 @@ class PartRest(PartStill):
             )
         self._require_parts("settle")
         self._from_now = True
-        self._tell("settle", moving=moving, crossings=crossings)
+        self._tell("settle", moving=moving, transits=transits)
         self._asked_force = self.weight
-        longest = RAMP_CROSSINGS + crossings
+        longest = RAMP_CROSSINGS + transits
         begin = partial(self._begin_settling, longest)
         over = partial(self._has_settled, longest)
         entered = self._damped_stage(begin, over, "weight")
@@ -66,11 +66,11 @@ class PartRest(PartStill):
             raise SimulationError(
                 f"settle: reactions lack {self._missing_reaction:.2g} of the weight of "
                 f"{self.weight:.4g} N and motion is {found.motion:.2g}, must fall below {AT_REST}; "
-                f"{self._most_borne}; allow more crossings, or with settle(moving=True) what "
+                f"{self._most_borne}; allow more transits, or with settle(moving=True) what "
                 "slides or topples may go on"
             )
 
-    def relax(self, *, crossings: float = REST_CROSSINGS) -> None:
+    def relax(self, *, transits: float = REST_CROSSINGS) -> None:
         """Hold what is driven, and let the stored energy come to rest.
 
         Damping is on meanwhile (0.7 if it was below 0.2, with real masses) and then what it was.
@@ -78,46 +78,46 @@ class PartRest(PartStill):
         is below 1e-7 of the largest of the record.
 
         Args:
-            crossings: Times that a wave takes through the specimen after which it must be at rest.
+            transits: Times that a wave takes through the specimen after which it must be at rest.
 
         Raises:
             SimulationError: if it does not come to rest.
         """
-        crossings = require_number("relax: crossings", crossings, CROSSINGS)
+        transits = require_number("relax: transits", transits, CROSSINGS)
         self._require_scene("relax")
-        self._tell("relax", crossings=crossings)
-        self._come_to_rest("relax", crossings)
+        self._tell("relax", transits=transits)
+        self._come_to_rest("relax", transits)
 
-    def dwell(self, crossings: float = 10.0, *, by: str = "way") -> None:
+    def dwell(self, transits: float = 10.0, *, by: str = "displacement") -> None:
         """Go on for a time while what is driven stands, or while its load stays.
 
         Args:
-            crossings: Times that a wave takes through the specimen.
-            by: ``"way"``: the driven parts stand; ``"load"``: they go where the load stays within
-                0.1 % of what it is as the dwell begins, and no damping is changed.
+            transits: Times that a wave takes through the specimen.
+            by: ``"displacement"``: the driven parts stand; ``"load"``: they go where the load
+                stays within 0.1 % of what it is as the dwell begins, and no damping is changed.
 
         Raises:
             InputError: for a load without a part that loads.
             SimulationError: if the load does not stay.
         """
-        crossings = require_number("dwell: crossings", crossings, CROSSINGS)
+        transits = require_number("dwell: transits", transits, CROSSINGS)
         require_one_of("dwell: by", by, WAYS)
         self._require_scene("dwell")
         if by == "load":
             self._require_loaded("dwell")
-        self._tell("dwell", crossings=crossings, by=by)
+        self._tell("dwell", transits=transits, by=by)
         if by == "load":
-            self._steer("dwell", None, crossings, until="end")
+            self._steer("dwell", None, transits, until="end")
         else:
-            begin = partial(self._begin_rest, crossings, damped=False)
+            begin = partial(self._begin_rest, transits, damped=False)
             self._stage(begin, lambda: self.diverged, "dwell")
 
-    def unload(self, *, rate: float = 1.0, crossings: float = REST_CROSSINGS) -> None:
+    def unload(self, *, rate: float = 1.0, transits: float = REST_CROSSINGS) -> None:
         """Take the load of the driven parts back to 0, where all is at rest; pressures stay.
 
         Args:
             rate: Factor on the default loading rate, at the fastest [-].
-            crossings: Times that a wave takes through the specimen for the last of the load, beside
+            transits: Times that a wave takes through the specimen for the last of the load, beside
                 those of the way back.
 
         Raises:
@@ -125,10 +125,10 @@ class PartRest(PartStill):
             SimulationError: if the load does not come to 0.
         """
         rate = require_number("unload: rate", rate, RATE)
-        crossings = require_number("unload: crossings", crossings, CROSSINGS)
+        transits = require_number("unload: transits", transits, CROSSINGS)
         self._require_loaded("unload")
-        self._tell("unload", rate=rate, crossings=crossings)
-        self._steer("unload", 0.0, crossings, rate=rate)
+        self._tell("unload", rate=rate, transits=transits)
+        self._steer("unload", 0.0, transits, rate=rate)
 
     def _begin_settling(self, longest: float) -> Span:
         rises = yade.O.iter == 0

@@ -56,7 +56,7 @@ class PartStill(PartStatics, GrainRig):
             found = self._balance_of_all()
             raise SimulationError(
                 f"{stage}: imbalance = {found.largest:.2g} of the largest force, must fall below "
-                f"{AT_REST}; {self._most_borne}; allow more crossings, or lower what loads"
+                f"{AT_REST}; {self._most_borne}; allow more transits, or lower what loads"
             )
 
     def _begin_rest(self, crossings: float, damped: bool = True) -> Span:

@@ -67,15 +67,17 @@ class ElasticState(Snapshot):
         return (self.node_sets if isinstance(part, HeldNodes) else self.plates)[part.number]
 
 
-def required_loading(way: float, load: float | None) -> tuple[float, float | None]:
+def required_loading(displacement: float, load: float | None) -> tuple[float, float | None]:
     """Way [m, or rad] and load [N, or N m] of a static solution; at most one of them is given."""
-    way = require_number("elastic: way", way, unit="m")
+    displacement = require_number("elastic: displacement", displacement, unit="m")
     if load is None:
-        return way, None
+        return displacement, None
     load = require_number("elastic: load", load, unit="N")
-    if way != 0.0:
-        raise InputError(f"elastic: way = {way:g}, must be left out beside a load")
-    return way, load
+    if displacement != 0.0:
+        raise InputError(
+            f"elastic: displacement = {displacement:g}, must be left out beside a load"
+        )
+    return displacement, load
 
 
 def solved(rig: object, built: Model, solve: Callable[[], Table]) -> ElasticState:
@@ -101,7 +103,7 @@ class PartStatics(PartLoads):
         self,
         pressures: Mapping[Part, float] | None = None,
         *,
-        way: float = 0.0,
+        displacement: float = 0.0,
         load: float | None = None,
     ) -> ElasticState:
         """Where the specimen would come to rest, if no contact broke further: a static solution.
@@ -115,10 +117,11 @@ class PartStatics(PartLoads):
 
         Args:
             pressures: On parts [Pa], beside those that `press` has given, or in their place.
-            way: How far the driven parts go from here, along the loading [m], or turn [rad];
-                1.0 gives the load of a unit way, the stiffness, where nothing opens or closes.
+            displacement: How far the driven parts go from here, along the loading [m], or turn
+                [rad]; 1.0 gives the load of a unit displacement, the stiffness, where nothing
+                opens or closes.
             load: Sum of what the driven parts push [N], or of their moments [N m], in place of a
-                way.
+                displacement.
 
         Returns:
             A snapshot that also tells forces and displacements of the parts.
@@ -128,14 +131,14 @@ class PartStatics(PartLoads):
                 leave the specimen, or a piece of it, free to move: it names the motion.
         """
         frame = self._frame
-        way, load = required_loading(way, load)
-        if load is not None or way != 0.0:
+        displacement, load = required_loading(displacement, load)
+        if load is not None or displacement != 0.0:
             self._require_driven("elastic:")
         pressed = self._pressed(frame, {} if pressures is None else pressures)
         return solved(
             self,
             self.built,
-            lambda: frame.elasticState(list(pressed), list(pressed.values()), way, load),
+            lambda: frame.elasticState(list(pressed), list(pressed.values()), displacement, load),
         )
 
     def _pressed(self, frame: wrapper.PartFrame, pressures: object) -> dict[int, float]:

@@ -7,11 +7,13 @@ from typing import ClassVar
 
 from yade import wrapper
 
+from ...renamed import with_old_names
 from ...require import NOT_NEGATIVE, require_number
 from ..grain_rig import GrainRig, NodeRig, PlateRig
 from .elastic_state import ElasticState, required_loading, solved
 
 
+@with_old_names
 class EndStatics(GrainRig):
     """Base of a rig between two ends that answers without a step."""
 
@@ -19,7 +21,7 @@ class EndStatics(GrainRig):
     _between_plates: ClassVar[bool]
 
     def elastic(
-        self, pressure: float | None = None, *, way: float = 0.0, load: float | None = None
+        self, pressure: float | None = None, *, displacement: float = 0.0, load: float | None = None
     ) -> ElasticState:
         """Where the specimen would come to rest, if no contact broke further: a static solution.
 
@@ -30,15 +32,16 @@ class EndStatics(GrainRig):
 
         Args:
             pressure: On the sides, and on a top that is not driven [Pa]. None: what acts now.
-            way: How far the upper end goes along the loading [m], from where the pressure has
-                brought it. A plate's way is more than that of the grains: its contacts give, too.
-            load: What it bears in the end, along the loading [N], in place of a way.
+            displacement: How far the upper end goes along the loading [m], from where the pressure
+                has brought it. A plate's way is more than that of the grains: its contacts give,
+                too.
+            load: What it bears in the end, along the loading [N], in place of a displacement.
 
         Raises:
             InputError: for a value out of range, a pressure on a disc, and a specimen of which a
                 piece is free to move: it names the motion.
         """
-        way, load = required_loading(way, load)
+        displacement, load = required_loading(displacement, load)
         if pressure is not None:
             pressure = require_number("elastic: pressure", pressure, NOT_NEGATIVE, "Pa")
         frame = self._recorder.frame
@@ -46,7 +49,9 @@ class EndStatics(GrainRig):
         return solved(
             self,
             self.built,
-            lambda: frame.elasticState(self._between_plates, self._pieces, pressure, way, load),
+            lambda: frame.elasticState(
+                self._between_plates, self._pieces, pressure, displacement, load
+            ),
         )
 
     @property

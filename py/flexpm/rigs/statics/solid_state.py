@@ -67,7 +67,7 @@ class SolidPartStatics(PartStatics):
         self,
         pressures: Mapping[Part, float] | None = None,
         *,
-        way: float = 0.0,
+        displacement: float = 0.0,
         load: float | None = None,
     ) -> SolidElasticState:
         """Where the unloaded solid would come to rest, if all of it stayed elastic.
@@ -77,17 +77,18 @@ class SolidPartStatics(PartStatics):
 
         Args:
             pressures: On parts [Pa]: they are free to move along their normals.
-            way: How far the driven parts, or a machine's crosshead, go along the loading [m], or
-                turn [rad].
-            load: Sum of what they push [N], or of their moments [N m], in place of a way.
+            displacement: How far the driven parts, or a machine's crosshead, go along the loading
+                [m], or turn [rad].
+            load: Sum of what they push [N], or of their moments [N m], in place of a
+                displacement.
 
         Raises:
             InputError: as of the plane, and once a step has been done.
         """
-        way, asked = required_loading(way, load)
+        displacement, asked = required_loading(displacement, load)
         frame = self._frame
         driven = bool(frame.driven or frame.drivenSets)
-        if asked is not None or way != 0.0:
+        if asked is not None or displacement != 0.0:
             self._require_driven("elastic:")
         pressed = self._pressed(frame, {} if pressures is None else pressures)
         if not (driven or pressed):
@@ -95,7 +96,7 @@ class SolidPartStatics(PartStatics):
         solid = self.built
         assert isinstance(solid, SolidModel)
         try:
-            found = frame.elasticState(list(pressed), list(pressed.values()), way, asked)
+            found = frame.elasticState(list(pressed), list(pressed.values()), displacement, asked)
         except (ValueError, RuntimeError) as error:
             raise InputError(f"elastic: {error}") from None
         sum_of = _Sum(solid)

@@ -18,6 +18,7 @@ from ...errors import InputError
 from ...files import Table
 from ...joints.cuts import Cut
 from ...progress import Progress
+from ...renamed import with_old_names
 from ...require import require_flag
 from ..kernel_input import call, checksum, mineral_indices
 from . import cells as of_spheres
@@ -27,6 +28,7 @@ from .plane_only import PlaneOnly
 from .spec import SHORT_EDGE, SIZES, SolidSpec
 
 
+@with_old_names
 @dataclass(frozen=True, eq=False)
 class SolidSpecimen(PlaneOnly):
     """Bonded polyhedral grains that fill a box, a cylinder, a disc or half of one.
@@ -279,7 +281,7 @@ class SolidSpecimen(PlaneOnly):
         """None: a solid has no joints."""
         return []
 
-    def joint_bends(self) -> dict[str, float]:
+    def joint_deviations(self) -> dict[str, float]:
         """None: a solid has no joints."""
         return {}
 
