@@ -90,7 +90,7 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    """Names to be completed: public ones only, also those that are imported later."""
+    """Names to be completed: only public names, including names that are imported later."""
     special = {name for name in globals() if name.startswith("__")}
     return sorted({*special, *__all__, *_MODULES})
 

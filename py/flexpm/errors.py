@@ -5,11 +5,19 @@ from __future__ import annotations
 
 
 class InputError(ValueError):
-    """A value given by the user is wrong; nothing was computed with it."""
+    """A value given by the user is wrong; no computation has begun.
+
+    Example:
+        >>> try:
+        ...     flexpm.Specimen.rectangle(-0.1, 0.2, 0.01)
+        ... except flexpm.InputError as error:
+        ...     print("width" in str(error))
+        True
+    """
 
 
 class SimulationError(RuntimeError):
-    """A simulation could not be carried to its end."""
+    """A simulation has failed before its end."""
 
 
 class BusyError(OSError):

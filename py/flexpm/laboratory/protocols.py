@@ -34,26 +34,28 @@ def run(
     checkpoint_interval: float = INTERVAL,
     **options: Unpack[RunOptions],
 ) -> Result:
-    """Run a test in YADE's scene, which is reset first and holds the final state afterwards.
+    """Run a laboratory test in YADE's scene, and return its result.
 
-    With `out`, checkpoints are saved there. A run into a folder that holds a checkpoint of the same
-    inputs goes on from it, to the same bits as without an interruption; if that run was complete,
-    its result is returned and no step is done.
+    The scene is reset first, and holds the final state afterwards. With `out`, checkpoints are
+    saved in that folder. If the folder holds a checkpoint of the same inputs, the run resumes from
+    it and reaches the same bits as an uninterrupted run. If the folder holds the finished run, its
+    result is returned without a step.
 
     Args:
-        test: Name of the test, one of those below. It is over when the deviator, the axial stress
-            minus the least confining pressure, has fallen to `stop_ratio` of its peak, when the
-            strain reaches `max_strain`, or, under a confining pressure and without `max_strain`,
-            when the deviator has been constant within 2 % over a strain of 0.5 %.
-        specimen: The grains. The axial direction is y in 2D and z in 3D.
-        material: Preset, file, or material; None for the default of model and dimension.
+        test: Name of the test, see the list below. A test ends when the deviator (axial stress
+            minus least confining pressure) has dropped to `stop_ratio` of its peak, or when the
+            strain reaches `max_strain`. Under a confining pressure and without `max_strain` it also
+            ends when the deviator has been constant within 2 % over a strain of 0.5 %.
+        specimen: The bonded grains, 2D or 3D. The axial direction is y in 2D and z in 3D.
+        material: Name of a preset, TOML file, or material; None: the default of model and
+            dimension.
         model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.
-        threads: Threads of a step; results do not depend on it. Default: 1.
-        out: Folder for the files of the result; None writes nothing.
-        progress: Called with (steps done, steps expected, text).
+        threads: Number of threads of a step; results do not depend on it. Default: 1.
+        out: Folder for the files of the result; None writes no files.
+        progress: Function that is called with (steps done, steps expected, text).
         checkpoint_interval: Wall time between two checkpoints [s], > 0. Default: 30.
-        options: The keywords below, in SI units; an option of some tests is for these alone.
+        options: The keywords below, in SI units. Some keywords apply to a few tests only.
 
     Keyword Args:
         {keywords}
@@ -63,10 +65,21 @@ def run(
         {tests}
 
     Returns:
-        The measures, the record and the cracks.
+        Measured quantities, record and cracks.
 
     Raises:
         InputError: for an argument out of range, or if `out` holds a checkpoint of other inputs.
+
+    Example:
+        A direct tension test on a specimen of 37 grains, too few and too fast for a strength:
+
+        >>> result = flexpm.run("tension", specimen, rate=6.0)
+        >>> print(result.status)
+        not_quasistatic
+        >>> print(f"E = {result.youngs_modulus / 1e9:.1f} GPa")
+        E = 24.4 GPa
+        >>> result.curve["axial_stress"].max() == result.peak_stress
+        True
     """
     require_specimen("run", specimen)
     asked: Table = {**options}

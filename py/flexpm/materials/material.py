@@ -46,7 +46,7 @@ _PRESETS = Path(__file__).with_name("presets")
 
 
 class Law(TypedDict):
-    """Effective parameters of a material for one model, keys as in the TOML files."""
+    """Effective parameters of a material for one model; keys as in the TOML files."""
 
     young: float | None  #: [Pa]
     poisson: float | None  #: [-]
@@ -66,8 +66,9 @@ class Law(TypedDict):
 class ElasticSet:
     """Elastic properties of one model.
 
-    The set ``flexible`` needs `young` and `poisson` for its triangles. In the set ``inner`` they
-    are the rock's: the stiffness of the contacts is fitted to them if they are given.
+    The set ``flexible`` requires `young` and `poisson` of its triangles. In the set ``inner``,
+    `young` and `poisson` are values of the rock: if they are given, the stiffness of the contacts
+    is fitted to them.
     """
 
     normal_stiffness: float  #: K_n of the contacts [Pa/m]
@@ -78,7 +79,25 @@ class ElasticSet:
 
 @dataclass(frozen=True)
 class Material(Shown):
-    """Contact strengths and elastic sets of a rock. All values are checked on construction."""
+    """Contact strengths and elastic sets of a rock. All values are checked on construction.
+
+    Example:
+        >>> material = flexpm.Material.from_dict(
+        ...     {
+        ...         "tensile_strength": 8.5e6,
+        ...         "cohesion": 29.75e6,
+        ...         "friction": 0.5,
+        ...         "density": 2650.0,
+        ...         "softening": "brittle",
+        ...         "elastic": {
+        ...             "rigid": {"normal_stiffness": 20e12, "shear_ratio": 0.3},
+        ...         },
+        ...     },
+        ...     "granite",
+        ... )
+        >>> material.law("rigid")["cohesion"]
+        29750000.0
+    """
 
     name: str
     elastic: Mapping[str, ElasticSet]  #: by name of the set: flexible, rigid, inner
@@ -116,16 +135,17 @@ class Material(Shown):
 
     @classmethod
     def from_dict(cls, data: Mapping[str, object], name: str = "custom") -> Material:
-        """Build a material from nested keys as they stand in a TOML file.
+        """Build a material from nested keys as they are in a TOML file.
 
         Args:
             data: Common keys, a table `elastic` of sets, lists `mineral` and `interface` of tables
-                if grains differ, a table `joint` of joints if there are; `name` and a table
+                if grains differ, and a table `joint` if there are joints; `name` and a table
                 `made_for` are optional.
-            name: Name if `data` holds none.
+            name: Name if `data` has no name.
 
         Raises:
-            InputError: naming the key that is unknown, missing or out of range.
+            InputError: for a key that is unknown, missing or out of range; the message names the
+                key.
         """
         common: Table = require_table("material", data)
         label = require_text("material name", common.pop("name", name))
@@ -148,23 +168,28 @@ class Material(Shown):
         model: str = "flexible",
         **values: object,
     ) -> Material:
-        """Return a copy with `KEY=VALUE` assignments applied; elastic keys go to `model`'s set.
+        """Return a copy with `KEY=VALUE` assignments applied; elastic keys change `model`'s set.
 
-        Values may also be given by a mapping or as keywords.
+        Values may also be passed as a mapping or as keywords.
 
-        ``MINERAL.KEY=VALUE`` changes a key of one mineral; otherwise what a mineral changes itself
-        stays as it is. ``joint.NAME.KEY=VALUE`` changes a key of a joint, or makes one.
-        ``interface.MINERAL/MINERAL.KEY=VALUE`` and ``....factor.KEY=VALUE`` do the same for the
-        contacts of a pair of minerals, in any order.
+        ``MINERAL.KEY=VALUE`` changes a key of one mineral; a common key does not replace values
+        that a mineral sets itself. ``joint.NAME.KEY=VALUE`` changes a key of a joint, or makes a
+        joint. ``interface.MINERAL/MINERAL.KEY=VALUE`` and ``....factor.KEY=VALUE`` do the same for
+        the contacts of a pair of minerals, in any order.
 
-        Choosing brittle softening drops fracture energies that came with the material, since
-        brittle means that they equal the elastic energies. A stiffness or shear ratio given for
-        inner particles drops the constants that these would be fitted to.
+        Brittle softening removes fracture energies that came with the material, since brittle means
+        that they equal the elastic energies. A stiffness or shear ratio of inner particles removes
+        the constants to which these would be fitted.
 
-        A key that `model` does not use changes nothing; a ``UserWarning`` names it.
+        A key that `model` does not use has no effect; a ``UserWarning`` names it.
 
         Raises:
             InputError: for a malformed assignment, an unknown key, or a value out of range.
+
+        Example:
+            >>> material = flexpm.materials.load("augig-table7").with_set("cohesion=20e6")
+            >>> material.law()["cohesion"]
+            20000000.0
         """
         changes: Table = {**_assigned(assignments), **_assigned(values)}
         for line in unused(changes, model):
@@ -195,14 +220,14 @@ class Material(Shown):
         return changed
 
     def law(self, model: str = "flexible") -> Law:
-        """Effective parameters of `model` as one flat dictionary, keys as in the TOML files.
+        """Return the effective parameters of `model` as a flat dictionary, keys as in TOML files.
 
         For brittle softening the fracture energies are the elastic energies sigma_t^2 / (2 K_n)
         and c^2 / (2 eta K_n) [N/m] of the model's own elastic set.
 
         Raises:
-            InputError: if the material has no set for `model` or lacks a value that `model` needs,
-                or if a fracture energy that `model` uses lies below the elastic energy.
+            InputError: if the material has no set for `model` or no value that `model` requires, or
+                if a fracture energy that `model` uses is below the elastic energy.
         """
         chosen = self._elastic(model)
         if model == "flexible":
@@ -229,15 +254,15 @@ class Material(Shown):
         )
 
     def joint_laws(self, model: str = "flexible") -> list[Table]:
-        """Parameters of all joints in effect for `model`, each with its name.
+        """Return the effective parameters of all joints for `model`, each with its name.
 
         Raises:
-            InputError: as ``law``, or for a fracture energy below the elastic one.
+            InputError: as ``law``, or for a fracture energy below the elastic energy.
         """
         return [one.law({**self.law(model)}) for one in self.joints]
 
     def elastic_energies(self, model: str = "flexible") -> tuple[float, float]:
-        """Energies [N/m] a point has stored at its tensile and at its shear strength."""
+        """Return the energy of a contact point at its tensile and its shear strength [N/m]."""
         chosen = self._elastic(model)
         normal = chosen.normal_stiffness
         tensile = self.tensile_strength**2 / (2.0 * normal)
@@ -273,10 +298,10 @@ class Material(Shown):
 
 
 def default_name(model: str = "flexible", *, solid: bool = False) -> str:
-    """Name of the preset that is used if no material is given.
+    """Return the name of the preset that is used if no material is given.
 
-    The preset of flexible grains has an elastic set for each model that takes such specimens:
-    models that are compared share it.
+    The preset of flexible grains has an elastic set for each model that takes such specimens.
+    Models that are compared share this preset.
 
     Args:
         model: Name of the model.
@@ -287,7 +312,7 @@ def default_name(model: str = "flexible", *, solid: bool = False) -> str:
 
 
 def unused(keys: Iterable[str], model: str) -> list[str]:
-    """A line for each key of an assignment that has no effect on a model."""
+    """Return a line for each key of an assignment that has no effect on a model."""
     return [
         f"set {key} has no effect, model {model} does not use it"
         for key in keys
@@ -296,7 +321,7 @@ def unused(keys: Iterable[str], model: str) -> list[str]:
 
 
 def preset_names() -> list[str]:
-    """Names of the presets that come with flexpm."""
+    """Return the names of the presets that flexpm includes."""
     return sorted(path.stem for path in _PRESETS.glob("*.toml"))
 
 
@@ -306,16 +331,21 @@ def load(
     *,
     solid: bool = False,
 ) -> Material:
-    """Return a material from a preset's name, a TOML file, a dictionary or a Material.
+    """Return a material from the name of a preset, a TOML file, a dictionary or a Material.
 
     Args:
-        material: None takes the default preset of `model`. A text that ends in `.toml` or holds
-            a path separator is a file, any other text is the name of a preset.
-        model: Model whose default is taken.
-        solid: Whether the default for 3D specimens is taken.
+        material: A text that ends in `.toml` or contains a path separator is a file; any other text
+            is the name of a preset. None: the default preset of `model`.
+        model: Model whose default is used.
+        solid: Whether the default for 3D specimens is used.
 
     Raises:
         InputError: for an unknown preset, an unreadable file or a wrong value.
+
+    Example:
+        >>> material = flexpm.materials.load("augig-table7")
+        >>> material.name, material.law()["tensile_strength"]
+        ('augig-table7', 8500000.0)
     """
     if material is None:
         material = default_name(model, solid=solid)
@@ -350,7 +380,7 @@ def _elastic_keys(name: str, values: object) -> Table:
 
 
 def _refuse_missing(common: Table, sets: Mapping[str, Table]) -> None:
-    """Name all keys that a material needs and does not have, in one line."""
+    """Name all keys that a material requires and does not have, in one line."""
     needed: tuple[str, ...] = ("tensile_strength", "cohesion", "friction")
     if common.get("softening", Material.softening) != "brittle":
         needed += ENERGY_KEYS

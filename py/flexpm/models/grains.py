@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Models of a specimen: bodies and engines in YADE's scene, paper Sec. 2. SI units.
 
-With scaled masses (the default) time is counted in steps: the time step is 1, velocities are metres
-per step, and only slow loading means anything.
+With scaled masses (the default) time is counted in steps: the time step is 1, and velocities are
+metres per step. Only slow loading is meaningful then.
 """
 
 from __future__ import annotations
@@ -49,19 +49,26 @@ Engine = TypeVar("Engine", bound=wrapper.Engine)
 
 @dataclass
 class Model:
-    """A specimen in YADE's scene.
+    """A specimen in YADE's scene; made by :func:`flexpm.build`.
 
     Attributes:
-        specimen: The grains.
-        material: Their material.
+        specimen: The bonded grains.
+        material: Material of the grains.
         name: Name of the model.
-        solver: The engine that holds and steps the grains.
-        engines: All engines of the model; ``solver`` is one of them.
-        dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
-        minerals: Index of each grain's mineral, or None if all grains are alike.
-        gravity: Acceleration downwards [m/s2], with real masses only.
-        points: Contact points per contact.
-        mesh: Triangles in each grain.
+        solver: Engine that stores the grains and advances them.
+        engines: All engines of the model, including ``solver``.
+        dynamic: Whether masses are real and the time step is in seconds; False: scaled masses and
+            unit steps.
+        minerals: Index of each grain's mineral, (G,); None: all grains have the same material.
+        gravity: Downward acceleration [m/s2]; with real masses only.
+        points: Number of contact points per contact.
+        mesh: Mesh of each grain, ``refined`` or ``fan``.
+
+    Example:
+        >>> model = flexpm.build(specimen)
+        >>> model.run(10)
+        >>> model.counts()["grains"], model.threads
+        (37, 1)
     """
 
     specimen: Specimen
@@ -76,9 +83,9 @@ class Model:
     mesh: str = MESHES[0]
 
     def set_masses(self) -> None:
-        """Scale the masses, or set the real ones and their stable time step, before the first step.
+        """Scale the masses, or set real masses and their stable time step, before the first step.
 
-        Needed again after plates have been laid or ends are held.
+        Call it again after plates have been added or ends have been fixed.
         """
         if self.dynamic:
             yade.O.dt = self.solver.useRealMasses()
@@ -88,16 +95,20 @@ class Model:
             self.solver.scaleMasses()
 
     def pull_down(self, part: float = 1.0) -> None:
-        """Let a part of the weight act [-], against the last axis."""
+        """Apply a share of the weight [-], against the last axis."""
         pull = -part * self.gravity
         solid = is_solid(self.specimen.kind)
         self.solver.gravity = (0.0, 0.0, pull) if solid else (0.0, pull, 0.0)
 
     def run(self, steps: int) -> None:
-        """Advance by `steps`.
+        """Advance the scene by `steps`.
+
+        Args:
+            steps: Number of steps.
 
         Raises:
-            RuntimeError: if a number is not finite any more, or the scene is not this one any more.
+            RuntimeError: if a number is no longer finite, or the scene is no longer that of the
+                model.
         """
         if self.solver not in yade.O.engines:
             raise SimulationError(
@@ -118,28 +129,28 @@ class Model:
         after: tuple[wrapper.Engine, ...] = (),
         last: tuple[wrapper.Engine, ...] = (),
     ) -> None:
-        """Put engines of a protocol just before or after the solver's step, or last."""
+        """Insert engines of a protocol immediately before or after the solver's step, or last."""
         place = self.engines.index(self.solver)
         self.engines[place : place + 1] = [*before, self.solver, *after]
         self.engines += last
         set_engines(self.engines)
 
     def remove_engines(self, *engines: wrapper.Engine | None) -> None:
-        """Take engines of a protocol out again."""
+        """Remove engines of a protocol from the scene."""
         self.engines = [engine for engine in self.engines if engine not in engines]
         set_engines(self.engines)
 
     def engine(self, kind: type[Engine]) -> Engine | None:
-        """The first engine of a class, or None."""
+        """Return the first engine of a class, or None."""
         return next((engine for engine in self.engines if isinstance(engine, kind)), None)
 
     def required(self, kind: type[Engine]) -> Engine:
-        """The first engine of a class, which the scene must have."""
+        """Return the first engine of a class, which the scene must have."""
         return next(engine for engine in self.engines if isinstance(engine, kind))
 
     @property
     def damping(self) -> float:
-        """Local damping alpha [-]; at most that with which the specimen was built."""
+        """Local damping alpha [-]; at most the damping with which the specimen was built."""
         return self.solver.damping
 
     @damping.setter
@@ -147,36 +158,48 @@ class Model:
         self.solver.damping = value
 
     def set_threads(self, threads: int) -> None:
-        """Threads of a step; results do not depend on it."""
+        """Set the number of threads of a step; results do not depend on it."""
         self.solver.ompThreads = threads
 
     @property
     def threads(self) -> int:
-        """Threads of a step."""
+        """Number of threads of a step."""
         return int(self.solver.ompThreads)
 
     def rebind(self) -> None:
-        """Take over the engines of a scene that has been loaded."""
+        """Use the engines of a scene that has been loaded."""
         self.engines = list(yade.O.engines)
         self.solver = self.required(wrapper.GrainSolver)
 
     def counts(self) -> dict[str, int]:
-        """Numbers of grains, particles, contacts, nodes and triangles, by name."""
+        """Return the numbers of grains, particles, contacts, nodes and triangles, by name.
+
+        Example:
+            >>> counts = flexpm.build(specimen).counts()
+            >>> counts["grains"], counts["contacts"], counts["nodes"], counts["triangles"]
+            (37, 85, 388, 508)
+        """
         return self.solver.counts()
 
     def snapshot(self) -> AnySnapshot:
-        """The present state as plain arrays."""
+        """Return the present state as plain arrays, see `Snapshot`.
+
+        Example:
+            >>> state = flexpm.build(solid).snapshot()
+            >>> state.fragments.grains.tolist()  # one fragment of all 44 grains
+            [44]
+        """
         found: Table = {**self.solver.snapshot(), **self.of_snapshots}
         return Snapshot(**found)
 
     @property
     def of_snapshots(self) -> Table:
-        """What snapshots tell beside the solver's arrays: minerals, and what stresses are."""
+        """Data of snapshots besides the solver's arrays: minerals, and the source of stresses."""
         source = OF_TRIANGLES if self.name == "flexible" else OF_GRAINS
         return {"grain_mineral": self.minerals, "stress_source": source}
 
     def describe_material(self) -> Table:
-        """Name and parameters of the material, of minerals also the area that they have."""
+        """Return name and parameters of the material, with the area fraction of each mineral."""
         return mineral_map.describe(self.specimen, self.material, self.name, self.minerals)
 
     def parting(self, state: AnySnapshot) -> tuple[int | None, float]:
@@ -205,19 +228,19 @@ class Model:
 
 
 class SolidModel(Model):
-    """A solid in YADE's scene. What rigs ask of a specimen a solid has, too."""
+    """A 3D specimen in YADE's scene, with the members that rigs require of a specimen."""
 
     @property
     def largest_overlap(self) -> float | None:
-        """Deepest overlap of grains over the mean diameter [-]."""
+        """Ratio of the deepest overlap of grains to the mean diameter [-]."""
         return float(self.solver.overlaps()["of_diameter"])
 
     def snapshot(self) -> SolidSnapshot:
-        """The present state as plain arrays."""
+        """Return the present state as plain arrays."""
         return self.state_of(self.solver.snapshot())
 
     def state_of(self, found: Table) -> SolidSnapshot:
-        """A state of this solid, from its arrays."""
+        """Return a state of this 3D specimen, from its arrays."""
         return snapshot_of(found, self.of_snapshots["stress_source"], self.minerals)
 
 
@@ -254,34 +277,41 @@ def build(
 ) -> Model | spheres.SphereModel:
     """Put a specimen into YADE's scene: a body per grain, an interaction per bond, engines.
 
-    Bodies that the scene has already are kept, its engines are replaced.
+    Bodies that the scene already has are kept; its engines are replaced.
 
     Args:
-        specimen: The grains; of a solid flexible or rigid ones, or YADE's spheres.
-        material: Preset, file, or material; None for the default of model and dimension.
+        specimen: The bonded grains. A 3D specimen takes ``flexible`` or ``rigid`` grains, or YADE's
+            spheres.
+        material: Name of a preset, TOML file, or material; None: the default of model and
+            dimension.
         model: ``flexible``, ``rigid``, ``inner``, ``inner-un``, or YADE's own ``jcfpm`` or
             ``cohfrict``.
-        points: Contact points per contact, 1, 2 or 3 (Lobatto); inner particles have one.
+        points: Contact points per contact, 1, 2 or 3 (Lobatto); inner particles have 1.
         mesh: ``refined`` or ``fan`` (triangles of corners and centre only).
-        interaction_range: For ``jcfpm`` and ``cohfrict``: pairs of discs nearer than this multiple
-            of the sum of their radii are bonded, too, 1 to 2 [-] (deviation D61); None: only those
-            whose cells share an edge.
-        threads: Threads of a step; results do not depend on it.
-        motion: How the grains move, by these names:
+        interaction_range: For ``jcfpm`` and ``cohfrict``, the largest ratio of the distance of two
+            disc centres to the sum of their radii at which the discs are bonded, 1 to 2 [-]
+            (deviation D61). None: only discs whose cells share an edge are bonded.
+        threads: Number of threads of a step; results do not depend on it.
+        motion: Options of the motion, by these names:
 
             - ``damping``: local damping alpha [-], 0 <= alpha < 1; None, the default: 0.7 with
-              scaled masses, 0 with real ones. What moves freely under gravity g gains
-              (1 - alpha) g.
+              scaled masses, 0 with real masses. A grain in free fall under gravity g accelerates
+              with (1 - alpha) g.
             - ``dynamic``: real masses and a time step in seconds instead of scaled masses and unit
-              steps; default False.
-            - ``gravity``: acceleration downwards [m/s2]; other than 0, the default, with
-              ``dynamic`` only.
+              steps. Default: False.
+            - ``gravity``: downward acceleration [m/s2]. Default: 0; other values need ``dynamic``.
 
     Returns:
         The model; ``yade.O`` holds its bodies and engines.
 
     Raises:
         InputError: for an argument or a material property out of range.
+
+    Example:
+        >>> model = flexpm.build(specimen, model="rigid")
+        >>> from yade import O
+        >>> len(O.bodies) == model.counts()["grains"] == 37
+        True
     """
     damping, dynamic, gravity = motion_of(motion)
     check_options(
@@ -344,21 +374,31 @@ def elastic(
     points: int = 3,
     mesh: str = "refined",
 ) -> dict[str, float]:
-    """Elastic constants of a rectangle or a solid by one static solve, without a simulation.
+    """Compute the elastic constants of a specimen by one static solution, without a simulation.
 
     Args:
-        specimen: A rectangle, or a box or a cylinder, which is pulled along z.
-        material: Preset, file, or material; None for the default of model and dimension.
-        model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``; of solids the first two.
-        points: Contact points per contact; inner particles have one. Not of solids.
-        mesh: ``refined`` or ``fan``. Not of solids.
+        specimen: A rectangle; or a box or a cylinder, which is pulled along z.
+        material: Name of a preset, TOML file, or material; None: the default of model and
+            dimension.
+        model: ``flexible``, ``rigid``, ``inner`` or ``inner-un``; in 3D ``flexible`` or ``rigid``.
+        points: Contact points per contact, 1, 2 or 3; inner particles have 1. In 2D only.
+        mesh: ``refined`` or ``fan``. In 2D only.
 
     Returns:
         ``youngs_modulus`` [Pa], ``poissons_ratio`` [-] and the counts of the model.
 
     Raises:
-        InputError: for an argument out of range or a specimen that is no rectangle or solid.
-        SimulationError: if the forces of a solid do not come to balance.
+        InputError: for an argument out of range, or a specimen that is not a rectangle, a box or a
+            cylinder.
+        SimulationError: if the forces of a 3D specimen do not reach equilibrium.
+
+    Example:
+        >>> found = flexpm.elastic(specimen)
+        >>> print(f"E = {found['youngs_modulus'] / 1e9:.1f} GPa")
+        E = 24.4 GPa
+        >>> found = flexpm.elastic(solid)
+        >>> print(f"nu = {found['poissons_ratio']:.2f}")
+        nu = 0.23
     """
     require_one_of("build: model", model, GRAIN_MODELS)
     require_specimen("elastic", specimen)
@@ -373,7 +413,7 @@ def elastic(
 
 
 def _in_scene(solver: wrapper.GrainSolver, mean_diameter: float) -> list[wrapper.Engine]:
-    """Give a scene the bodies and bonds of a solver and its engines, which are returned."""
+    """Add the bodies and bonds of a solver to the scene, and return its engines."""
     solver.addToScene()
     bounds = [wrapper.Bo1_LaguerreCell_Aabb()]
     engines = [collider(bounds, mean_diameter), solver, _idle_newton()]
@@ -387,7 +427,7 @@ def _refuse_second() -> None:
 
 
 def _refuse_plane(call: str, **given: float | str) -> None:
-    """Refuse options of 2D specimens for a 3D one."""
+    """Reject options that are available in 2D only for a 3D specimen."""
     usual = {"points": POINTS[-1], "mesh": MESHES[0]}
     for name, value in given.items():
         if value != usual[name]:

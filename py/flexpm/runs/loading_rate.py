@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How fast tests are driven, when they end and when they count as quasi-static. SI units.
+"""Loading rate of tests, end of tests, and criterion of quasi-static results. SI units.
 
-What differs from test to test and model to model is in ``kinds``.
+Values that depend on test and model are in ``kinds``.
 """
 
 from __future__ import annotations
@@ -63,12 +63,17 @@ _MOST_STEPS = 10**10
 
 @dataclass(frozen=True)
 class Loading:
-    """How the ends of a specimen are driven, and when its test ends.
+    """Rate, start and end of the loading of a specimen.
 
-    A loading ends when the stress has fallen to `stop_ratio` of its peak, or at `max_strain`. The
+    A loading ends when the stress has dropped to `stop_ratio` of its peak, or at `max_strain`. The
     default `max_strain` is 8 times the strain of the reference strength; between parts it is at
-    least 8 times the compression at which a specimen of that size fails as a whole. If the load
+    least 8 times the compression at which a specimen of that size fails as a unit. If the load
     still rises there, the status is ``no_peak``.
+
+    Example:
+        >>> loading = flexpm.Loading(rate=0.5, max_strain=2e-3)
+        >>> loading.rate, loading.max_strain
+        (0.5, 0.002)
     """
 
     rate: float = 1.0  #: factor on the default loading rate [-]
@@ -86,7 +91,7 @@ class Loading:
     control: str = ""
 
     def __post_init__(self) -> None:
-        """Refuse numbers out of range, an unknown kind, and a static start under control."""
+        """Reject numbers out of range, an unknown type, and a static start under control."""
         require_number("Loading: rate", self.rate, RATE)
         if self.max_strain is not None:
             require_number("Loading: max_strain", self.max_strain, _STRAIN)
@@ -103,7 +108,7 @@ class Loading:
 
 @dataclass(frozen=True)
 class Scales:
-    """What the loading rate and the end of a test follow from."""
+    """Sizes and stiffnesses that determine the loading rate and the end of a test."""
 
     crossing_steps: float  #: steps in which a wave crosses the specimen
     modulus: float  #: stress over strain of the record, roughly [Pa]
@@ -119,7 +124,7 @@ class Scales:
 
 @dataclass(frozen=True)
 class Schedule:
-    """How fast and how far a test is driven."""
+    """Velocity and largest displacement of a test."""
 
     velocity: float  #: of the moving end at factor 1 [m/step, or m/s with real masses]
     fastest: float  #: largest factor on the velocity [-]
@@ -148,7 +153,7 @@ class Schedule:
 
 
 def prescribed(velocity: float) -> Schedule:
-    """Drive at one velocity that nothing ends: a boundary condition, which needs no scales.
+    """Return the schedule of one endless velocity: a boundary condition, which needs no scales.
 
     Args:
         velocity: Velocity of the driven parts [m/step, or m/s with real masses].
@@ -167,10 +172,10 @@ def prescribed(velocity: float) -> Schedule:
 
 
 def rates_of(test: str, model: str, *, solid: bool = False) -> Rates:
-    """Rates of a test on a model, of a specimen of the plane or of space.
+    """Return the rates of a test on a model, of a 2D or 3D specimen.
 
     Raises:
-        InputError: for a test that the model has none for.
+        InputError: for a test that has no rate for the model.
     """
     variants = {kind.name: kind.variant_in(solid=solid) for kind in _RATED}
     known = {name: one.rates for name, one in variants.items() if one and model in one.rates}
@@ -179,16 +184,16 @@ def rates_of(test: str, model: str, *, solid: bool = False) -> Rates:
 
 
 def fastest_factor(test: str, model: str, rate: float = 1.0, *, solid: bool = False) -> float:
-    """Largest factor on the velocity [-]: the rate over that of the constant times `rate`.
+    """Return the largest factor on the velocity [-]: ratio of the fastest to the constant rate.
 
-    A lower `rate` slows the whole test; a higher one does not raise the fastest rate.
+    A lower `rate` slows the entire test; a higher `rate` does not raise the fastest rate.
     """
     constant = rates_of(test, model, solid=solid).constant
     return max(FASTEST_CONSTANT * min(rate, 1.0) / (rate * constant), 1.0)
 
 
 def _waiting(rates: Rates, model: str, damage_share: float) -> tuple[float, tuple[float, float]]:
-    """Largest factor and running shares of a loading that waits for cracks [-]."""
+    """Return the largest factor and the running shares of a crack-controlled loading [-]."""
     if rates.running_share is None:
         raise InputError(
             f"Loading: kind = waiting, must be another for model {model}; waiting is for "
@@ -199,7 +204,7 @@ def _waiting(rates: Rates, model: str, damage_share: float) -> tuple[float, tupl
 
 
 def _fastest_ends(rates: Rates, model: str, rate: float) -> float:
-    """Largest factor on the velocity of ends that a servo drives [-]: that of a waiting loading."""
+    """Return the largest velocity factor of servo-driven ends [-]: that of a waiting loading."""
     if rates.running_share is None:
         raise InputError(
             f"Loading: control, must be left out for model {model}; it is for "
@@ -211,9 +216,9 @@ def _fastest_ends(rates: Rates, model: str, rate: float) -> float:
 def quasistatic_ratio(
     test: str, model: str, *, waiting: bool = False, brittle: bool = False, solid: bool = False
 ) -> float:
-    """Largest unbalanced-force ratio of a quasi-static test on a model [-].
+    """Return the largest unbalanced-force ratio of a quasi-static test on a model [-].
 
-    The median, or that under way of a loading that waits for cracks.
+    The ratio is the median, or the ratio while a crack-controlled loading moves.
     """
     rates = rates_of(test, model, solid=solid)
     ratio = rates.quasistatic
@@ -235,23 +240,23 @@ def schedule(
     softening: Softening = BRITTLE,
     dynamic: bool = False,
 ) -> Schedule:
-    """Loading rate and end of a test.
+    """Return loading rate and end of a test.
 
-    v = k eps_ref H / T with T the steps in which a wave of the scaled masses crosses the height
-    and eps_ref the strain of the lowest strength. The end follows the strength of the contacts that
-    connect the grains: the test goes on when the weakest ones have broken, as long as the stress
-    does not fall.
+    v = k eps_ref H / T, where T is the number of steps in which a wave of the scaled masses crosses
+    the height, and eps_ref is the strain of the lowest strength. The end follows the strength of
+    the contacts that connect the grains: after the weakest contacts have broken, the test continues
+    as long as the stress does not drop.
 
     Args:
-        test: Name of the test, which has a constant of its own.
-        model: Name of the model, which has, too.
-        loading: Rate and end as asked for.
+        test: Name of the test, which selects the constant k.
+        model: Name of the model, which also selects k.
+        loading: Requested rate and end.
         scales: Scales of the specimen.
-        confinement: Lateral pressure [Pa].
+        confinement: Confining pressure [Pa].
         dt: Time step [s], or 1 with scaled masses.
-        solid: The specimen is one of space.
+        solid: Whether the specimen is 3D.
         softening: Softening of its contacts, from which the likely steps follow.
-        dynamic: It has real masses: the velocity rises slowly from the first step on.
+        dynamic: Whether masses are real: the velocity then rises slowly from the first step.
 
     Raises:
         InputError: for a test that would never end.

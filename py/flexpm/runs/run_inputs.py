@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All that determines a run, as plain values, and what follows from them. SI units."""
+"""All inputs that determine a run, as plain values, and their consequences. SI units."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from .loading_rate import WAITING_MODELS
 
 @dataclass(frozen=True)
 class Tested:
-    """What is tested.
+    """Test, specimen and material of a run.
 
     Attributes:
-        test: One of ``TESTS``, or ``ELASTIC``.
-        specimen: What the specimen is made from.
+        test: Name from ``TESTS``, or ``ELASTIC``.
+        specimen: Description of the specimen.
         material: Its ``name`` and the parameters in effect for the model, see ``described``.
     """
 
@@ -36,17 +36,16 @@ class Tested:
 
 @dataclass(frozen=True)
 class RunInputs(TestOptions, LoadingOptions, GrainOptions, Tested):
-    """The inputs of a run: its groups, flat. Threads and folders are no part of it.
+    """The inputs of a run as one flat list of fields. Threads and folders are not among them.
 
-    A field that is added later has a default that stands for the runs of before; then no key
-    changes. Start and loading follow from test and model unless they are given; the rate is that of
-    the first loading where it is halved. A damping of None is 0.7, as always before it could be
-    chosen; with real masses it is 0 unless it is given, and a specimen is settled under its
-    confinement with 0.7 at least.
+    The default of a field that was added later stands for all earlier runs, so that no key changes.
+    By default, start and loading follow from test and model. If the rate is halved, the rate here
+    is the rate of the first loading. A damping of None is 0.7 with scaled masses and 0 with real
+    masses; a specimen under a confining pressure settles with at least 0.7.
     """
 
     def to_json(self) -> Table:
-        """All fields as JSON has them, the test's own options beside them: no tuples."""
+        """Return all fields and the test's own options as JSON stores them: no tuples."""
         plain = asdict(self)
         own = plain.pop("own")
         content: Table = json.loads(json.dumps({**plain, **own}, allow_nan=False))
@@ -59,12 +58,12 @@ class RunInputs(TestOptions, LoadingOptions, GrainOptions, Tested):
 
     @property
     def is_solid(self) -> bool:
-        """Whether the specimen is one of space."""
+        """Whether the specimen is 3D."""
         return is_solid(self.specimen.kind)
 
     @property
     def has_edge_normals(self) -> bool:
-        """Whether bonds have the normals of their edges: of cells other than Laguerre's (D104)."""
+        """Whether bonds have the normals of their edges: cells that are not Laguerre (D104)."""
         if self.is_solid or self.model not in BLOCK_MODELS:
             return False
         notched = self.kind.cut is not None and bool(self.options["notch"])
@@ -72,7 +71,7 @@ class RunInputs(TestOptions, LoadingOptions, GrainOptions, Tested):
 
     @property
     def options(self) -> dict[str, Value]:
-        """Options that not all tests have, by name; None for what is not given."""
+        """Options that only some tests have, by name; None: not given."""
         return {
             one.name: self.own.get(one.name, getattr(self, one.name, None))
             for one in self.kind.options
@@ -81,7 +80,7 @@ class RunInputs(TestOptions, LoadingOptions, GrainOptions, Tested):
 
     @property
     def pressure(self) -> float:
-        """What a stage that presses puts on [Pa]."""
+        """Pressure that a pressing stage applies [Pa]."""
         options = {"confinement": self.confinement, **self.options}
         value = options[self.kind.pressure]
         return float(value) if isinstance(value, float | int) else 0.0
@@ -98,12 +97,12 @@ class RunInputs(TestOptions, LoadingOptions, GrainOptions, Tested):
 
     @property
     def adapts(self) -> bool:
-        """Whether the loading can be another than constant."""
+        """Whether the rate of the loading may vary."""
         return self.model in GRAIN_MODELS and not self.dynamic and not self.kind.is_solve
 
     @property
     def default_loading(self) -> str:
-        """How the loading goes on unless it is given."""
+        """Type of the loading by default."""
         if not self.adapts:
             return "constant"
         if self.model in WAITING_MODELS:

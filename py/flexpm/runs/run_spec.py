@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What determines a run: made of options, written to files, named by a key. SI units.
+"""Inputs that determine a run: made of options, written to files, named by a key. SI units.
 
-Nothing heavy is loaded here, so that inputs are checked before YADE starts.
+No heavy library is imported here, so that inputs are checked before YADE starts.
 """
 
 from __future__ import annotations
@@ -50,10 +50,10 @@ _RIGID_SOLIDS = 1
 
 @dataclass(frozen=True)
 class RunSpec(RunInputs):
-    """The inputs of a run, see `RunInputs`, checked and complete; two that are alike have one key.
+    """The inputs of a run, see `RunInputs`, checked and complete. Equal inputs have the same key.
 
     Raises:
-        InputError: for a value out of range, or an option that the test has no use for.
+        InputError: for a value out of range, or an option that the test does not use.
     """
 
     def __post_init__(self) -> None:
@@ -71,10 +71,10 @@ class RunSpec(RunInputs):
 
         Args:
             test: Name of the test.
-            options: Values by the names of ``input_names.OPTIONS``; None stands for the default.
-                Other names, and sizes of another shape than that of the test, are not looked at.
-            material: The material, with the changes that the options ask for.
-            specimen: A specimen that is there already; None: packed as the options say.
+            options: Values by the names of ``input_names.OPTIONS``; None: the default. Other names,
+                and sizes of a shape that the test does not have, are ignored.
+            material: The material, including the changes that the options request.
+            specimen: Description of an existing specimen; None: packed as the options state.
 
         Raises:
             InputError: for a value out of range.
@@ -111,7 +111,7 @@ class RunSpec(RunInputs):
 
     @staticmethod
     def packed(test: str, options: Table) -> AnySpec:
-        """The packed specimen that options of the command describe for a test."""
+        """Return the packed specimen that options of the command describe for a test."""
         kind = kind_of(test)
         shape = shape_of(test, options.get("shape"), options.get("depth"))
         if is_solid(shape):
@@ -129,7 +129,7 @@ class RunSpec(RunInputs):
 
     @classmethod
     def from_json(cls, content: Table) -> RunSpec:
-        """Read what ``to_json`` gave; a field that is missing has its default.
+        """Read the content that ``to_json`` has written; a missing field has its default.
 
         Raises:
             InputError: for an unknown or missing field or a value out of range.
@@ -149,17 +149,17 @@ class RunSpec(RunInputs):
 
     @property
     def results(self) -> int:
-        """Number of the results, see ``results_number``."""
+        """Version number of the results, see ``results_number``."""
         return results_of(self)
 
     def key(self, results: int | None = None) -> str:
-        """Name of the run: a short hash of what differs from the defaults.
+        """Return the name of the run: a short hash of all values that differ from the defaults.
 
-        Two runs have one key if they must have the same results. Neither the version of flexpm nor
-        an option that did not exist counts.
+        Two runs have the same key if their results must be equal. The version of flexpm does not
+        count, and an option that did not exist yet does not count either.
 
         Args:
-            results: Number of the results; None for the present one.
+            results: Version number of the results; None: the present number.
         """
         content = {
             "schema": SCHEMA,
@@ -172,9 +172,9 @@ class RunSpec(RunInputs):
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def older_keys(self) -> list[str]:
-        """Keys that the run had under earlier numbers of the results, or by an earlier default.
+        """Return the keys of the run under earlier numbers of the results, or earlier defaults.
 
-        Grains were loaded adaptively before, then those with brittle contacts at a constant rate.
+        The default loading was adaptive at first. Later it was constant for brittle contacts.
         """
         keys = [self.key(number) for number in range(1, self.results)]
         if self.adapts and self.loading == self.default_loading:
@@ -199,17 +199,17 @@ def results_number(
     dynamic: bool = False,
     minerals: bool = False,
 ) -> int:
-    """Number that distinguishes results of a test and model from those before they changed.
+    """Return the version number of the results of a test and model.
 
-    It is the sum of the number of the test and model and of parts for some runs only: it rises
-    when any of them does.
+    It is the sum of the number of the test and model and of the numbers of optional features. The
+    sum increases when any of these numbers increases.
 
     Args:
         test: Name of the test.
         model: Name of the model.
         solid: Whether the specimen is 3D.
-        edge_normals: Whether it has bonds with normals of edges, see ``RunInputs``.
-        dynamic: Whether ``--dynamic`` gives it real masses.
+        edge_normals: Whether its bonds have the normals of edges, see ``RunInputs``.
+        dynamic: Whether ``--dynamic`` requests real masses.
         minerals: Whether its grains have several minerals, whose weakest contacts fix the rate.
     """
     kind = kind_of(test)
@@ -220,7 +220,7 @@ def results_number(
 
 
 def results_of(run: RunInputs) -> int:
-    """Number of the results of a run, see ``results_number``."""
+    """Return the version number of the results of a run, see ``results_number``."""
     return results_number(
         run.test,
         run.model,
@@ -239,7 +239,7 @@ def described(material: Material, model: str) -> Table:
 
 
 def law_of(material: Table) -> Table:
-    """Return what results depend on of a described material."""
+    """Return the part of a described material that results depend on."""
     return {key: value for key, value in material.items() if key not in LABELS}
 
 
@@ -248,7 +248,7 @@ def _named(values: Table) -> Table:
 
 
 def _changes(spec: RunSpec | AnySpec) -> Table:
-    """Fields that have another value than their default."""
+    """Return the fields whose value differs from their default."""
     values = {field.name: (getattr(spec, field.name), field.default) for field in fields(spec)}
     nested = ("specimen", "material", "own")
     own = spec.own if isinstance(spec, RunSpec) else {}
@@ -265,7 +265,7 @@ def _changes(spec: RunSpec | AnySpec) -> Table:
 
 
 def _material_changes(material: Table) -> Table:
-    """Parameters that have another value than a material's default; labels do not count."""
+    """Return the parameters whose value differs from a material's default; labels do not count."""
     defaults = {field.name: field.default for field in fields(Material)}
     found: Table = {}
     for key, value in law_of(material).items():
@@ -289,7 +289,7 @@ _FIELDS = tuple(field.name for field in fields(RunSpec) if field.name != "own")
 
 
 def split(values: Table) -> Table:
-    """Arguments of ``RunSpec`` from values by the names of its fields and of tests' options."""
+    """Return arguments of ``RunSpec`` from values by the names of fields and of tests' options."""
     if "rate" in values:
         rate, halvings = paced(values["rate"], values.get("halvings"))
         values = {**values, "rate": rate, "halvings": halvings}

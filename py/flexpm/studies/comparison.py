@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several models, or one under several confinements, on the same packing. SI units.
+"""Several models, or one model under several confining pressures, on one packing. SI units.
 
-Each run is a complete run in a folder of its own, done one after the other in this process: a run
-resets YADE's scene, so nothing passes from one to the next.
+Each run is a complete run in a folder of its own. The runs follow each other in this process: a run
+resets YADE's scene, so nothing passes from one run to the next.
 """
 
 from __future__ import annotations
@@ -59,34 +59,34 @@ class Case:
 
     @property
     def confinement(self) -> float:
-        """Lateral pressure [Pa]."""
+        """Confining pressure [Pa]."""
         return self.spec.confinement
 
     @property
     def name(self) -> str:
-        """Model, and the confinement of a biaxial test."""
+        """Model, and the confining pressure of a biaxial test."""
         pressure = f" {1e-6 * self.confinement:g} MPa" if self.spec.kind.confined else ""
         return f"{self.model}{pressure}"
 
     @property
     def peak(self) -> float | None:
-        """Largest axial stress [Pa]; None without one."""
+        """Largest axial stress [Pa]; None without a peak."""
         return None if self.result is None else self.result.peak_stress
 
     @property
     def status(self) -> str:
-        """Status of the result; ``failed`` without one."""
+        """Status of the result; ``failed`` without a result."""
         return "failed" if self.result is None else self.result.status
 
     @property
     def failed(self) -> bool:
-        """Whether there is no strength."""
+        """Whether the run has no strength."""
         return self.result is None or self.result.failed
 
 
 @dataclass
 class Comparison:
-    """Outcome of a comparison, model by model, each in the order of the confinements."""
+    """Outcome of a comparison, model by model, each in the order of the confining pressures."""
 
     test: str
     cases: list[Case]
@@ -99,11 +99,11 @@ class Comparison:
 
     @property
     def results(self) -> list[Result]:
-        """Results of all runs that have one."""
+        """Results of all runs that have a result."""
         return [case.result for case in self.cases if case.result is not None]
 
     def write(self, folder: Path | str) -> None:
-        """Write tables and pictures into `folder`, each whole or not at all."""
+        """Write tables and pictures into `folder`, each file completely or not at all."""
         folder = output_folder(folder)
         write_text(folder / "compare.csv", _table([_row(case) for case in self.cases]))
         shown = [(case.name, case.result) for case in self.cases if case.result]
@@ -131,22 +131,23 @@ def compare(
     checkpoint_interval: float = INTERVAL,
     **options: Unpack[SharedOptions],
 ) -> Comparison:
-    """Run a test with several models, or under several confinements, on one packing.
+    """Run a test with several models, or under several confining pressures, on one packing.
 
     All inputs are checked before the first run. A run that fails does not stop the others. With
-    `out`, finished and interrupted runs there are taken up as by :func:`flexpm.run`.
+    `out`, finished runs in that folder are reused and interrupted runs resume, as with
+    :func:`flexpm.run`.
 
     Args:
-        test: As for :func:`flexpm.run`.
-        specimen: The grains.
+        test: Name of the test, as for :func:`flexpm.run`.
+        specimen: The bonded grains.
         models: Names of models.
-        material: Preset, file, or material, or one for each model by its name; None, and a model
-            without one, for the default of flexible grains: ``augig-table7`` in 2D,
-            ``augig3d-calibrated`` in 3D.
-        confinements: Lateral pressures [Pa], for ``biaxial``; two or more give an envelope.
-        out: Folder for tables and pictures, with a folder for each run; None writes nothing.
-        progress: Called with (steps done, steps expected, text).
-        threads: Threads of a step; results do not depend on it.
+        material: Name of a preset, TOML file, or material; or a mapping from the name of a model to
+            its material. A model without a material has the default of flexible grains:
+            ``augig-table7`` in 2D, ``augig3d-calibrated`` in 3D.
+        confinements: Confining pressures [Pa], for ``biaxial``; an envelope needs two or more.
+        out: Folder for tables and pictures, with a folder for each run; None writes no files.
+        progress: Function that is called with (steps done, steps expected, text).
+        threads: Number of threads of a step; results do not depend on it.
         checkpoint_interval: Wall time between two checkpoints [s], > 0.
         options: Keywords of :func:`flexpm.run`, for all runs.
 
@@ -155,6 +156,13 @@ def compare(
 
     Raises:
         InputError: for an argument that is wrong for any of the runs.
+
+    Example:
+        >>> found = flexpm.compare("tension", specimen, ["flexible", "rigid"], rate=6.0)
+        >>> for case in found.cases:
+        ...     print(f"{case.name}: {case.peak / 1e6:.1f} MPa")
+        flexible: 9.3 MPa
+        rigid: 7.4 MPa
     """
     require_specimen("compare", specimen)
     folder = None if out is None else output_folder(out)
@@ -256,7 +264,7 @@ def _each_once(name: str, values: Sequence[Value]) -> list[Value]:
 
 
 def _give_folders(cases: Sequence[Case], folder: Path) -> None:
-    """Give each run a folder below that of the comparison."""
+    """Assign each run a folder below the folder of the comparison."""
     confinements = len({case.confinement for case in cases})
     for case in cases:
         case.folder = folder / place_of(case.model, case.confinement, confinements)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies: many runs over tests, models, material keys and seeds, spread by Dask. SI units.
+"""Studies: many runs over tests, models, material keys and seeds, distributed by Dask. SI units.
 
-Each run is a process in a folder named by the key of its inputs. A study that was killed goes on
-where it stopped; what is finished is not repeated, what failed is recorded.
+Each run is a process in a folder named by the key of its inputs. A study that was stopped resumes
+at its unfinished runs. Finished runs are not repeated, and failed runs are recorded.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Study:
     """Runs of a study file, in the order of the file.
 
     Attributes:
-        name: For captions.
+        name: Name for captions.
         jobs: Each run once.
         pictures: Tables ``[[picture]]``.
     """
@@ -53,13 +53,13 @@ def read(path: Path | str, seeds: Sequence[int] | None = None) -> Study:
 
     Args:
         path: The file.
-        seeds: Values of ``seed`` in the place of those of the file; None: the file's.
+        seeds: Values of ``seed`` that replace the values of the file; None: the file's.
 
-    ``[common]`` holds options of all runs, each ``[[case]]`` those of some runs, and ``[grid]``
-    lists of values of which all combinations are run, for each case. Keys are the options of
-    ``flexpm run``, with ``set.KEY`` for the material. Options that a test has no use for (a disc's
-    width, say) are left out, and runs that are equal then are one. With a ``script`` in ``[study]``
-    keys are its parameters, whatever they are called.
+    ``[common]`` has options of all runs, each ``[[case]]`` options of some runs, and ``[grid]``
+    lists of values. All combinations of these values are run, for each case. Keys are the options
+    of ``flexpm run``, with ``set.KEY`` for the material. Options that a test does not use (such as
+    a disc's width) are left out; runs that are equal afterwards are merged. With a ``script`` in
+    ``[study]`` the keys are its parameters, with any names.
 
     Raises:
         InputError: if the file cannot be read, or for an unknown key or a value out of range.
@@ -108,19 +108,19 @@ def of(
     *,
     limit: float | None = None,
 ) -> Study:
-    """A study of a function of a script: ``run(of(beam, {"seed": [1, 2]}), "folder")``.
+    """Make a study of a function of a script: ``run(of(beam, {"seed": [1, 2]}), "folder")``.
 
-    Each run is a process that loads the script and calls the function with ``out``, the folder of
-    the run, and a combination of the parameters; begin the study below
+    Each run is a process that imports the script and calls the function with ``out``, the folder of
+    the run, and a combination of the parameters. Begin the study below
     ``if __name__ == "__main__":``.
 
     Args:
-        function: At the top of the script.
-        grid: Values of each parameter, of which all combinations are run.
+        function: Function at the top level of the script.
+        grid: Values of each parameter; all combinations are run.
         limit: Wall time of a run [s]; None for no limit.
 
     Raises:
-        InputError: for a function that no other process can load, or that does not take these
+        InputError: for a function that another process cannot import, or that does not take these
             parameters.
     """
     scripts.refuse_within()
@@ -138,20 +138,21 @@ def run(
     cluster: str | None = None,
     progress: Progress | None = None,
 ) -> pandas.DataFrame:
-    """Run what is not finished yet and write the table.
+    """Run all unfinished runs and write the table.
 
     Args:
         study: The runs.
-        out: Folder of the study; ``runs/KEY`` are those of the runs. On a cluster all machines
-            must see it under this name.
-        workers: Runs at a time; None for one per core, or what the scheduler has.
+        out: Folder of the study; the runs are in ``runs/KEY``. On a cluster all machines
+            must reach it under this name.
+        workers: Number of simultaneous runs; None for one per core, or the scheduler's number.
         scheduler: Address of a running Dask scheduler.
-        cluster: Kind of batch system: ``slurm``, ``pbs``, ``oar``, ... as in dask-jobqueue, which
-            takes its settings from Dask's own configuration.
-        progress: Called when a run has ended.
+        cluster: Type of the batch system: ``slurm``, ``pbs``, ``oar``, ... as in dask-jobqueue,
+            which reads its settings from Dask's own configuration.
+        progress: Function that is called when a run has ended.
 
     Returns:
-        One row a run: inputs, ``exit_code``, ``message``, measures. It is in ``table.csv``, too.
+        One row per run: inputs, ``exit_code``, ``message``, measures. ``table.csv`` has the same
+        rows.
     """
     scripts.refuse_within()
     folder = output_folder(out)
@@ -163,7 +164,7 @@ def run(
 
 
 def _require_use(asked: Sequence[Table], made: Sequence[jobs.Job]) -> None:
-    """Refuse what is for models that the study does not have."""
+    """Reject keys for models that the study does not have."""
     keys = {jobs.spelt(key) for inputs in asked for key in inputs}
     given = {key for key in keys if key.startswith("set.") or key == "interaction_range"}
     for key in sorted(given.difference(*(job.inputs for job in made))):
@@ -171,7 +172,7 @@ def _require_use(asked: Sequence[Table], made: Sequence[jobs.Job]) -> None:
 
 
 def combinations(content: Table) -> Iterator[Table]:
-    """Inputs of each run that the tables of a study file ask for, in order."""
+    """Return the inputs of each run that the tables of a study file request, in order."""
     common = flat("study [common]", content.get("common", {}))
     grid = flat("study [grid]", content.get("grid", {}))
     for key, values in grid.items():
@@ -188,14 +189,14 @@ def combinations(content: Table) -> Iterator[Table]:
 
 
 def flat(label: str, entries: object) -> Table:
-    """A table with the keys of its table ``set`` as ``set.KEY``."""
+    """Return a table with the keys of its table ``set`` as ``set.KEY``."""
     plain = require_table(label, entries)
     changes = require_table(f"{label} set", plain.pop("set", {}))
     return plain | dict(_dotted("set", changes))
 
 
 def _dotted(prefix: str, entries: Table) -> Iterator[tuple[str, object]]:
-    """Entries of a table and of its tables: keys of joints are joint.NAME.KEY."""
+    """Return the entries of a table and of its tables: keys of joints are joint.NAME.KEY."""
     for key, value in entries.items():
         if isinstance(value, dict):
             yield from _dotted(f"{prefix}.{key}", value)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Calibrations to what a function of a script measures: own tests in the place of flexpm's."""
+"""Calibrations to the measures of a function of a script, which replaces flexpm's tests."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _NO_RUNS = Runs({}, (), ())
 
 
 class CalibrationOptions(TypedDict, total=False):
-    """What a calibration may be given by name."""
+    """Keywords of `calibrate`."""
 
     material: Material | str | None
     model: str
@@ -54,36 +54,49 @@ def calibrate(
     out: Path | str,
     **options: Unpack[CalibrationOptions],
 ) -> Outcome:
-    """Find the material with which a function of one's own gives what it is to give.
+    """Find the material with which a user-supplied function returns the target values.
 
-    The search, its verdict and its page are those of ``flexpm calibrate``: all keys are searched
-    as logarithms by DFO-LS, after a first guess by measures with the names of flexpm's. The
-    function does its own packings, and gives means of them. It is called once for each material.
+    Search, verdict and report are the same as with ``flexpm calibrate``. DFO-LS searches the
+    logarithms of all keys, after a first guess from measures that have the names of flexpm's
+    measures. The function is called once for each material. It makes its own packings, and returns
+    the means over them.
 
     Args:
-        measure: Takes a `Material`, does tests with it, and gives numbers by their names; others
-            than the targets are left out. What raises ``SimulationError``, or gives None or nan,
-            counts as a set without the measure.
+        measure: Function that takes a `Material`, runs tests with it, and returns numbers by name;
+            numbers that are not targets are ignored. A set counts as unmeasured if the function
+            raises ``SimulationError`` or returns None or nan.
         free: Bounds of each key that may change, as in ``[free]`` of a file, SI units.
-        targets: By the name of a measure its value, or a table with ``value``, ``tolerance`` (0.05)
-            and ``weight`` (1), as in ``[target]``. Values are above 0.
-        out: Folder; it gets ``history.csv``, the material as ``NAME.toml`` with the name of the
-            folder, ``calibration.png``, ``verdict.json`` and ``report.html``.
+        targets: Per measure its value, or a table with ``value``, ``tolerance`` (0.05) and
+            ``weight`` (1), as in ``[target]``. Values are > 0.
+        out: Folder for ``history.csv``, the material as ``NAME.toml`` with the name of the folder,
+            ``calibration.png``, ``verdict.json`` and ``report.html``.
         options: By these names:
 
-            - ``material``: preset, file or material to start from; None for that of the model.
-            - ``model``: ``flexible``, the default, or another one whose law the keys are of.
-            - ``evaluations``: most sets that are tried, 40.
-            - ``report``: whether to write the page; True.
-            - ``progress``: called with (sets done, sets expected, text).
+            - ``material``: preset, file or material to start from; None: the default of the model.
+            - ``model``: model whose law has the keys. Default: ``flexible``.
+            - ``evaluations``: largest number of sets that are tried. Default: 40.
+            - ``report``: whether to write the report. Default: True.
+            - ``progress``: function that is called with (sets done, sets expected, text).
 
     Returns:
         ``best`` with ``values`` and ``mean(name)``, ``met`` by target, and the ``verdict``. A
         target that no set has measured is not met, and its ``mean`` is None.
 
     Raises:
-        InputError: for a key or a value out of range, a function without one of the targets, or
+        InputError: for a key or a value out of range, a function that does not return a target, or
             a folder with other results.
+
+    Example:
+        Young's modulus of a packing, from its static solution::
+
+            def measure(material):
+                found = flexpm.elastic(specimen, material)
+                return {"youngs_modulus": found["youngs_modulus"]}
+
+            found = flexpm.calibrate(
+                measure, {"young": [10e9, 60e9]}, {"youngs_modulus": 26e9}, "fitted"
+            )
+            print(found.best.values["young"], found.met)
     """
     if not callable(measure):
         raise InputError(f"calibrate: measure = {quoted(measure)}, must be a function")
@@ -136,11 +149,11 @@ def calibrate(
 
 @dataclass(frozen=True)
 class _OwnCalibration(Calibration):
-    """A calibration whose measures are all searched for alike."""
+    """A calibration that searches for all measures in the same manner."""
 
     @property
     def made_for(self) -> None:
-        """The packings are those of the function, and unknown here."""
+        """None: the function makes the packings, which are unknown here."""
 
     def of_kind(self, elastic: bool) -> tuple[list[Target], list[str]]:
         return ([], []) if elastic else ([*self.targets], [*self.free])
