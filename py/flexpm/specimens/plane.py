@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plane specimens: outlines filled with grains, packed or given, paper Sec. 3.1. Lengths in metres.
+"""2D specimens: outlines filled with packed or given grains, paper Sec. 3.1. Lengths in metres.
 
-Grains are the Laguerre cells of packed discs, cells sawn out of a packing, or cells of any shape.
+Grains are the Laguerre cells of packed discs, cells cut out of a packing, or cells of any shape.
 """
 
 from __future__ import annotations
@@ -47,17 +47,17 @@ Corners = Sequence[Sequence[float]] | FloatArray
 
 
 class Packing(TypedDict, total=False):
-    """How an outline is filled with grains: what all shapes that are packed take.
+    """Arguments that all packed shapes have.
 
-    The first three may also follow the thickness without their names, in this order.
+    The first three may also follow the thickness as positional arguments, in this order.
 
     Attributes:
-        diameters: Smallest and largest disc diameter [m]; 2 mm and 4 mm if left out.
-        porosity: Sets the number of discs only [-]; the cells leave no pores. 0.10 if left out.
-        seed: Any integer from 0 to 2**64 - 1; the same seed gives the same specimen. 1 if left out.
-        short_edge: Edges of cells below this share of the mean diameter are collapsed [-];
-            0.35 mm for the usual diameters if left out.
-        progress: Called with (steps done, steps expected, text).
+        diameters: Smallest and largest disc diameter [m]; default: 2 mm and 4 mm.
+        porosity: Ratio that sets the number of discs [-]; the cells have no pores. Default: 0.10.
+        seed: Integer from 0 to 2**64 - 1; the same seed gives the same specimen. Default: 1.
+        short_edge: Ratio to the mean diameter below which edges of cells are collapsed [-];
+            default: the ratio that is 0.35 mm for the default diameters.
+        progress: Function that is called with (steps done, steps expected, text).
     """
 
     diameters: tuple[float, float]
@@ -88,10 +88,10 @@ class Filling:
 
 
 def packing_of(name: str, in_order: Sequence[object], named: Packing) -> Packing:
-    """Arguments of a packing, with names or without.
+    """Return the arguments of a packing, given by name or by position.
 
     Raises:
-        TypeError: for one that is unknown or there twice, and for too many, as Python does.
+        TypeError: for an unknown, repeated or surplus argument, as Python does.
     """
     if len(in_order) > len(_IN_ORDER):
         raise TypeError(f"{name}() takes {', '.join(_IN_ORDER)} in order, the rest by keyword")
@@ -111,17 +111,17 @@ def packed_spec(
     how: Packing,
     outline: str | None = None,
 ) -> SpecimenSpec:
-    """What a specimen of a shape is packed from; `outline` is the checksum of one that is sawn."""
+    """Return the inputs of a packed shape; `outline` is the checksum of an outline that is cut."""
     fields: Table = {**sizes, **how, "thickness": thickness, "outline": outline}
     fields.pop("progress", None)
     return SpecimenSpec(kind, **fields)
 
 
 def pack(spec: SpecimenSpec, progress: Progress | None) -> Filling:
-    """Pack a rectangle or disc, or saw half a disc out of a packed block.
+    """Pack a rectangle or disc, or cut half a disc out of a packed block.
 
     Raises:
-        InputError: for discs that do not fit, or that were given instead of packed.
+        InputError: for discs that do not fit, or for a `spec` of given discs.
     """
     where = f"Specimen.{spec.kind}"
     if not spec.is_packed:
@@ -222,7 +222,7 @@ def from_tess(path: Path, thickness: float, scale: float, short_edge: float) -> 
 def _of_cells(
     tiling: Tiling, rings: list[FloatArray], thickness: float, grains: IntArray | None = None
 ) -> Filling:
-    """Fill an outline with cells that the kernel has taken, of given grains or a grain each."""
+    """Fill an outline with cells from the kernel; each cell is a grain unless grains are given."""
     if grains is None:
         grains = _pieces(tiling)
     checksums = {
@@ -269,7 +269,7 @@ def from_discs(
 def _given_spec(
     outline: FloatArray | Circle, thickness: float, short_edge: float, checksums: dict[str, str]
 ) -> SpecimenSpec:
-    """What a specimen is made from that is not packed: its outline, and checksums of the rest."""
+    """Return the inputs of a specimen without a packing: its outline, and checksums of the rest."""
     kind, sizes = kind_of(outline)
     given: Table = {"diameters": None, "porosity": None, "seed": None, **sizes, **checksums}
     return SpecimenSpec(kind, thickness=thickness, short_edge=short_edge, **given)

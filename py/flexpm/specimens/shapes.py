@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes of plane specimens: how users make them. Lengths in metres."""
+"""Constructors of 2D specimens. Lengths in metres."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .spec import SpecimenSpec
 
 
 class PlaneShapes(ABC):
-    """What makes a plane specimen."""
+    """Constructors of a 2D specimen."""
 
     @classmethod
     def rectangle(
@@ -34,15 +34,23 @@ class PlaneShapes(ABC):
         """Pack a rectangle with its lower left corner at the origin; y is the axial direction.
 
         Args:
-            width: Along x [m].
-            height: Along y [m].
-            thickness: Out of plane [m].
+            width: Size along x [m].
+            height: Size along y [m].
+            thickness: Thickness out of plane [m].
             in_order: Diameters, porosity and seed, if not by keyword.
             packing: ``diameters``, ``porosity``, ``seed``, ``short_edge`` and ``progress``, see
                 `Packing`.
 
+        Returns:
+            The specimen.
+
         Raises:
             InputError: for a value out of range, or discs that do not fit.
+
+        Example:
+            >>> specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01, porosity=0.1, seed=2)
+            >>> specimen.seed, specimen.extent["height"]
+            (2, 0.024)
         """
         how = packing_of("rectangle", in_order, packing)
         return cls._packed("rectangle", {"width": width, "height": height}, thickness, how)
@@ -55,9 +63,13 @@ class PlaneShapes(ABC):
 
         Args:
             diameter: Diameter of the specimen [m].
-            thickness: Out of plane [m].
+            thickness: Thickness out of plane [m].
             in_order: As for ``rectangle``.
             packing: As for ``rectangle``.
+
+        Example:
+            >>> flexpm.Specimen.disc(0.02, 0.01).dimensions
+            {'diameter': 0.02}
         """
         how = packing_of("disc", in_order, packing)
         return cls._packed("disc", {"diameter": diameter}, thickness, how)
@@ -66,13 +78,13 @@ class PlaneShapes(ABC):
     def half_disc(
         cls, diameter: float, thickness: float, *in_order: object, **packing: Unpack[Packing]
     ) -> Self:
-        """Saw the upper half of a disc out of a packed block, its lower left corner at the origin.
+        """Cut the upper half of a disc out of a packed block, its lower left corner at the origin.
 
-        The arc has one chord for each grain along it, one of them on top.
+        The arc has one chord for each grain along it; one of the chords is at the top.
 
         Args:
             diameter: Diameter of the disc, along x [m].
-            thickness: Out of plane [m].
+            thickness: Thickness out of plane [m].
             in_order: As for ``rectangle``.
             packing: As for ``rectangle``.
         """
@@ -88,22 +100,33 @@ class PlaneShapes(ABC):
         holes: Sequence[Corners] = (),
         **packing: Unpack[Packing],
     ) -> Self:
-        """Saw an outline of any shape out of a packed block (D31 to D33).
+        """Cut an outline of any shape out of a packed block (D31 to D33).
 
-        The block is the box around the outline. Grains on the outline are cut; those inside keep
-        their cells. A rectangle along x and y, with holes or without, can be tested as such.
+        The block is the bounding box of the outline. Grains on the outline are cut; inner grains
+        keep their cells. A rectangle along x and y, with or without holes, takes the tests of a
+        rectangle.
 
         Args:
-            corners: Simple polygon, convex or not, in any sense [m]; the first one may come
-                again at the end, here and wherever corners are given.
-            thickness: Out of plane [m].
+            corners: Simple polygon, convex or not, in any sense [m]; the first corner may be
+                repeated at the end, here and in all other arguments with corners.
+            thickness: Thickness out of plane [m].
             in_order: As for ``rectangle``.
             holes: Corners of each hole [m].
             packing: As for ``rectangle``.
 
         Raises:
-            InputError: for a value out of range, or a polygon or holes that cross themselves or
+            InputError: for a value out of range, or if polygon or holes intersect themselves or
                 each other.
+
+        Example:
+            A square with a square hole:
+
+            >>> hole = [(0.012, 0.012), (0.018, 0.012), (0.018, 0.018), (0.012, 0.018)]
+            >>> plate = flexpm.Specimen.polygon(
+            ...     [(0, 0), (0.03, 0), (0.03, 0.03), (0, 0.03)], 0.01, holes=[hole]
+            ... )
+            >>> len(plate.holes), f"{sum(plate.cell_sizes):.6f}"
+            (1, '0.000864')
         """
         how = packing_of("polygon", in_order, packing)
         return cls._of(plane.polygon(corners, thickness, holes, how))
@@ -113,7 +136,7 @@ class PlaneShapes(ABC):
         """Pack the specimen that `spec` describes, as ``rectangle`` and ``disc`` do.
 
         Raises:
-            InputError: for discs that do not fit, or that were given instead of packed.
+            InputError: for discs that do not fit, or for a `spec` of given discs.
         """
         return cls._of(plane.pack(spec, progress))
 
@@ -123,19 +146,26 @@ class PlaneShapes(ABC):
     ) -> Self:
         """Make a specimen of given cells, which must tile their outline.
 
-        Corners closer than 1e-6 mean diameters are one, and a corner as close to an edge divides it
-        (D34). A cell whose edges are not all seen from one point is split (D32).
+        Corners closer than 1e-6 mean diameters are merged. A corner that is as close to an edge
+        divides the edge (D34). A cell is split if no point exists from which all of its edges are
+        visible (D32).
 
         Args:
             polygons: Corners of each cell, (n, 2) [m], in any sense.
-            thickness: Out of plane [m].
+            thickness: Thickness out of plane [m].
             holes: Whether the cells may leave holes, of at least 2 % of a mean cell.
 
         Returns:
             The specimen; cells in the order given, second parts of split cells last.
 
         Raises:
-            InputError: for cells that cross themselves, overlap, or leave a gap.
+            InputError: for cells that intersect themselves, overlap, or leave a gap.
+
+        Example:
+            >>> left = [(0, 0), (0.01, 0), (0.01, 0.01), (0, 0.01)]
+            >>> right = [(0.01, 0), (0.02, 0), (0.02, 0.01), (0.01, 0.01)]
+            >>> flexpm.Specimen.from_polygons([left, right], 0.01).statistics()["contacts"]
+            1
         """
         return cls._of(plane.from_polygons(polygons, thickness, holes))
 
@@ -152,25 +182,30 @@ class PlaneShapes(ABC):
     ) -> Self:
         """Make a specimen of an image whose pixels have the labels of grains, or of phases.
 
-        A grain is a region of equal labels that hangs together by edges of pixels. Boundaries are
-        smoothed, both neighbours keeping one line, at most a pixel off; areas stay those of the
-        pixels (D73). Grains that go round others, or are far from convex, are cut into cells,
-        which know their grain (``grains``).
+        A grain is a region of equal labels that is connected by edges of pixels. Boundaries are
+        smoothed by at most a pixel: neighbours share one line, and areas stay the areas of the
+        pixels (D73). Grains that enclose others, or are far from convex, are cut into cells;
+        ``grains`` has the index of the grain of each cell.
 
         Args:
-            labels: Whole numbers, rows of pixels, the first row on top.
+            labels: Whole numbers, rows of pixels, the first row at the top.
             pixel: Side of a pixel [m].
-            thickness: Out of plane [m].
+            thickness: Thickness out of plane [m].
             minerals: For each label an index into the minerals of the material, None for a hole;
-                left out: no holes, and minerals are drawn.
-            edge: Way from corner to corner of a boundary [m], two pixels or more; a quarter of the
-                mean diameter of the grains if left out.
-            smallest: Regions with fewer pixels go to the neighbour with the longest shared line,
+                default: no holes, and minerals are sampled.
+            edge: Distance between corners of a boundary [m], at least two pixels; default: a
+                quarter of the mean diameter of the grains.
+            smallest: Regions with fewer pixels join the neighbour with the longest shared line,
                 of the same mineral first [-].
 
         Raises:
-            InputError: for labels that are no whole numbers, a label without a mineral, an image
-                of one region or of holes alone, and more than 20 million pixels.
+            InputError: for labels that are not whole numbers, a label without a mineral, an image
+                that is one region or holes only, and more than 20 million pixels.
+
+        Example:
+            >>> labels = [[1] * 8 + [2] * 8] * 8
+            >>> len(flexpm.Specimen.from_labels(labels, 1e-4, 0.01).discs)
+            2
         """
         options = {"pixel": pixel, "minerals": minerals, "edge": edge, "smallest": smallest}
         return cls._of(plane.from_labels(labels, thickness, options))
@@ -189,23 +224,25 @@ class PlaneShapes(ABC):
     ) -> Self:
         """Make a specimen of a map of crystal orientations, a ``.ctf`` or ``.ang`` file.
 
-        Neighbours of one phase hang together below a misorientation, the smallest one under the
-        symmetry of the phase's Laue group. The grains then go on as in ``from_labels``. A map of
-        one phase names no minerals.
+        Neighbouring points of a phase belong to one grain if their misorientation is below the
+        limit. The misorientation is the smallest angle under the symmetry of the phase's Laue
+        group. Further steps are the same as in ``from_labels``. A map of one phase names no
+        minerals.
 
         Args:
-            path: The file; its steps are micrometres.
-            thickness: Out of plane [m].
-            misorientation: From which on two neighbours are two grains [degree].
-            unindexed: ``fill``: points that were not indexed go to most of their neighbours;
-                ``hole``: they are no rock.
-            phases: TOML file of ``"phase" = "mineral"``, or ``"hole"``; left out: each phase of
+            path: The file; its steps are in micrometres.
+            thickness: Thickness out of plane [m].
+            misorientation: Smallest misorientation between two grains [degree].
+            unindexed: ``fill``: points that were not indexed join the majority of their neighbours;
+                ``hole``: they are not rock.
+            phases: TOML file of ``"phase" = "mineral"``, or ``"hole"``; default: each phase of
                 the file, in its order, is a mineral.
             edge: As for ``from_labels`` [m].
-            smallest: As for ``from_labels``, points [-]; a point of a hexagonal grid counts twice.
+            smallest: As for ``from_labels``, in points [-]; a point of a hexagonal grid counts
+                twice.
 
         Raises:
-            InputError: for a file that is no such map or is broken, with its line, and as
+            InputError: for a file that is not such a map or is broken, with its line, and as
                 ``from_labels``.
         """
         options = {"misorientation": misorientation, "unindexed": unindexed, "phases": phases}
@@ -221,21 +258,22 @@ class PlaneShapes(ABC):
         scale: float = 1.0,
         short_edge: float = SHORT_EDGE,
     ) -> Self:
-        """Make a specimen of the cells of a tessellation of Neper in the plane, a ``.tess`` file.
+        """Make a specimen of the cells of a 2D tessellation of Neper, a ``.tess`` file.
 
-        Where the cells are the Laguerre cells of the seeds in the file the seeds are the centres
-        (D76); others are given cells, as in ``from_polygons``.
+        If the cells are the Laguerre cells of the seeds in the file, the seeds are the centres
+        (D76). Other cells are used as in ``from_polygons``.
 
         Args:
-            path: The file, of format 2.0 or later; a slice of cells in space is laid flat.
-            thickness: Out of plane [m].
+            path: The file, of format 2.0 or later; a slice of 3D cells is rotated into the xy
+                plane.
+            thickness: Thickness out of plane [m].
             scale: Length of the file's unit [m].
-            short_edge: Edges of Laguerre cells below this share of the mean diameter are
-                collapsed [-]; 0: none.
+            short_edge: Ratio to the mean diameter below which edges of Laguerre cells are collapsed
+                [-]; 0: none.
 
         Raises:
-            InputError: for a file that is none of cells in the plane or is broken, with its line,
-                and as ``from_polygons``.
+            InputError: for a file that has no 2D cells or is broken, with its line, and as
+                ``from_polygons``.
         """
         return cls._of(plane.from_tess(Path(path), thickness, scale, short_edge))
 
@@ -254,17 +292,25 @@ class PlaneShapes(ABC):
 
         Args:
             centres: Rows x, y [m], inside the outline.
-            radii: One per centre [m].
+            radii: Radius per centre [m].
             outline: Corners of a convex polygon, counter-clockwise [m], or a circle.
-            thickness: Out of plane [m].
-            short_edge: Collapse edges of cells below this share of the mean diameter [-]; 0: none.
-            drop_hidden: Leave out discs that others hide, and count them in ``removed_discs``.
+            thickness: Thickness out of plane [m].
+            short_edge: Ratio to the mean diameter below which edges of cells are collapsed [-]; 0:
+                none.
+            drop_hidden: Leave out discs without a cell, and count them in ``removed_discs``.
 
         Returns:
             The specimen, grains in the order of the discs.
 
         Raises:
-            InputError: for a value out of range, a disc outside the outline or hidden by others.
+            InputError: for a value out of range, a disc outside the outline or without a cell.
+
+        Example:
+            >>> square = [(0, 0), (0.02, 0), (0.02, 0.02), (0, 0.02)]
+            >>> centres = [(0.005, 0.01), (0.015, 0.01)]
+            >>> two = flexpm.Specimen.from_discs(centres, [0.005, 0.005], square, 0.01)
+            >>> two.cell_sizes.round(6).tolist()
+            [0.0002, 0.0002]
         """
         made = plane.from_discs(centres, radii, outline, thickness, short_edge, drop_hidden)
         return cls._of(made)
@@ -276,4 +322,4 @@ class PlaneShapes(ABC):
     @classmethod
     @abstractmethod
     def _of(cls, made: plane.Filling) -> Self:
-        """Make it of grains that fill an outline."""
+        """Make a specimen of grains that fill an outline."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a specimen is made from, as plain values that files can hold. SI units.
+"""Inputs from which a specimen is made, as plain values that files can hold. SI units.
 
-Nothing heavy is loaded here, so that inputs are checked before YADE starts.
+No heavy library is imported here, so that inputs are checked before YADE starts.
 """
 
 from __future__ import annotations
@@ -121,13 +121,13 @@ class SpecimenSpec:
 
     @property
     def is_packed(self) -> bool:
-        """Whether a packing of a rectangle or disc gives it again, without a file."""
+        """Whether a packing of a rectangle or disc reproduces the specimen without a file."""
         given = (self.discs, self.outline, self.minerals, self.cells, self.joints, self.strengths)
         return all(one is None for one in given)
 
     @property
     def is_sawn(self) -> bool:
-        """Whether its outline was sawn out of a packing."""
+        """Whether its outline was cut out of a packing."""
         return (self.outline is not None and self.discs is None) or self.kind == "half-disc"
 
     @property
@@ -136,14 +136,14 @@ class SpecimenSpec:
         return self.cells is None and self.joints is None and not self.is_sawn
 
     def require_memory(self, room: float | None = None) -> None:
-        """Refuse a packing that the machine has no memory for, before it is begun.
+        """Raise an error before the packing begins if the machine has too little memory.
 
         Args:
-            room: Area that is packed [m2]; None: the rectangle or the disc, or the block from which
-                half a disc is sawn.
+            room: Area that is packed [m2]; None: the area of the rectangle or disc, or of the block
+                from which half a disc is cut.
 
         Raises:
-            InputError: if it needs more than there is.
+            InputError: if the packing needs more memory than the machine has.
         """
         if self.diameters is None or self.porosity is None:
             return
@@ -155,14 +155,14 @@ class SpecimenSpec:
         require_memory(f"Specimen.{self.kind}", grains, _MEMORY)
 
     def _packed_area(self) -> float:
-        """Area of the packing [m2]; 0 of a polygon, whose corners are not here."""
+        """Area of the packing [m2]; 0 for a polygon, whose corners are not stored here."""
         if self.kind == "rectangle":
             return math.prod(self.sizes.values())
         across = self.sizes.get("diameter", 0.0)
         return (0.5 if self.kind == "half-disc" else 0.25 * math.pi) * across * across
 
     def with_joints(self, lines: Lines, origin: tuple[float, float] | None = None) -> SpecimenSpec:
-        """The same specimen, cut by more joints, of a map if there is an origin.
+        """Return the same specimen with more joints, which belong to a map if an origin is given.
 
         Raises:
             InputError: for a joint with the name of a set of a network, whose traces it would join.
@@ -182,14 +182,14 @@ class SpecimenSpec:
         )
 
     def with_network(self, network: Table, lines: Lines) -> SpecimenSpec:
-        """The same specimen, cut by the traces of a network.
+        """Return the same specimen, cut by the traces of a network.
 
         Args:
-            network: Its table.
-            lines: What was drawn of it.
+            network: Table of the network.
+            lines: Generated traces of the network.
 
         Raises:
-            InputError: for a set with the name of a joint that is there already.
+            InputError: for a set with the name of an existing joint.
         """
         earlier = [*(self.joint_names or ()), *(name for name, _ in self.asked_intensities)]
         for name in network["set"]:
@@ -202,7 +202,7 @@ class SpecimenSpec:
 
     @property
     def joints_with_law(self) -> list[str]:
-        """Names of the joints but lines of excavations, which are rock until then."""
+        """Names of the joints, without lines of excavations, which are rock until then."""
         return [name for name in self.joint_names or () if not name.startswith(EXCAVATION)]
 
     @property
@@ -217,10 +217,10 @@ class SpecimenSpec:
     def window(
         self, outline: Sequence[Sequence[float]] | FloatArray | Mapping[str, float] | None
     ) -> Window:
-        """Where traces of networks are drawn: the box about the specimen, or its circle.
+        """Return the window of generated traces: the bounding box of the specimen, or its circle.
 
         Args:
-            outline: Corners, or x, y and radius of a circle [m]; None: that of a packing.
+            outline: Corners, or x, y and radius of a circle [m]; None: the outline of a packing.
         """
         from ..joints.window import Window
 
@@ -234,7 +234,7 @@ class SpecimenSpec:
         return Window.circle(**outline) if isinstance(outline, Mapping) else Window.about(outline)
 
     def require_alike(self, model: str) -> None:
-        """Refuse joints and strengths of each contact, for a model with contacts of its own."""
+        """Reject joints and strengths of contacts, for a model that makes its own contacts."""
         for what, one in (("joints", self.joints), ("strengths of contacts", self.strengths)):
             if one is not None:
                 raise InputError(
@@ -243,7 +243,7 @@ class SpecimenSpec:
                 )
 
     def require_discs(self, model: str) -> None:
-        """Refuse grains that are no discs, for a model of discs."""
+        """Reject grains that are not discs for a model of discs."""
         self.require_alike(model)
         kinds = {"given cells": self.cells, "sawn grains": self.is_sawn or None}
         what = next((kind for kind, one in kinds.items() if one is not None), "")
@@ -262,7 +262,7 @@ class SpecimenSpec:
         self._set("seed", require_seed(where, self.seed))
 
     def _size(self, where: str, name: str) -> float | None:
-        """A size that the shape has, or None."""
+        """Return a size that the shape has, or None."""
         value = getattr(self, name)
         if name not in SIZES[self.kind]:
             if value is not None:

@@ -43,29 +43,35 @@ _STRAIGHT = 1e-9
 @with_old_names
 @dataclass(frozen=True, eq=False)
 class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
-    """Bonded grains that fill an outline.
+    """Bonded grains that fill a 2D outline.
 
-    Make it by ``rectangle``, ``disc``, ``half_disc``, ``polygon``, ``from_discs``,
+    Make a specimen with ``rectangle``, ``disc``, ``half_disc``, ``polygon``, ``from_discs``,
     ``from_polygons``, ``from_labels``, ``from_ebsd``, ``from_tess`` or ``load``.
 
     Attributes:
-        discs: Rows x, y, radius [m], one per grain: centre of its disc, or the point from which
-            all edges of a cell are seen that is no disc's, with the radius of a disc of its area.
+        discs: Rows x, y, radius [m], one per grain: the disc of a Laguerre cell. For any other
+            cell, a point from which all edges are visible, and the radius of a disc of its area.
         outline: Corners, counter-clockwise, (n, 2) [m], or a circle.
         tessellation: Cells of the grains; cell i belongs to disc i.
-        spec: What it was made from.
+        spec: Inputs from which the specimen was made.
         removed_discs: Discs that had no cell and were left out.
-        minerals: Index of each grain's mineral in its material; None: drawn by area fractions.
+        minerals: Index of each grain's mineral in its material; None: sampled by area fractions.
         holes: Corners of each hole of the outline, clockwise, (n, 2) [m].
         edge_joints: Per shared edge an index into ``spec.joint_names``, -1: none; None: no joints.
-        joints: Lines of each joint as they were asked for, by its name [m].
-        joint_cuts: What came of the lines of each joint, by its name.
-        regions: How many regions and pixels of an image went another way, by what happened, and
-            figures of the ``source`` itself; not saved.
-        mineral_names: What a map or an image calls its minerals, in their order; a material that
-            has one of them has it at the same place.
-        grains: Per cell the grain before it was cut, by joints or to be meshed; None: each is one.
+        joints: Requested lines of each joint, by its name [m].
+        joint_cuts: Outcome of cutting the lines of each joint, by its name.
+        regions: Numbers of regions and pixels of an image that were merged, filled or left out, by
+            cause, and figures of the ``source``; not saved.
+        mineral_names: Names of the minerals in a map or image, in their order. If the material has
+            one of these minerals, it has the same index there.
+        grains: Per cell the index of the grain before it was cut, by joints or for meshing; None:
+            each cell is a grain.
         strengths: Factor of the strengths of each contact [-]; None: all 1.
+
+    Example:
+        >>> specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01)
+        >>> len(specimen.discs), specimen.kind, specimen.dimensions
+        (37, 'rectangle', {'width': 0.012, 'height': 0.024})
     """
 
     discs: FloatArray
@@ -100,16 +106,19 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
 
     @classmethod
     def load(cls, path: Path | str) -> Specimen:
-        """Read a specimen that ``save`` has written: the same grains to the bit.
+        """Read a specimen that ``save`` has written, with bit-identical grains.
+
+        Args:
+            path: The file.
 
         Raises:
-            InputError: if the file cannot be read, is no specimen, or was changed.
+            InputError: if the file cannot be read, is not a specimen, or was changed.
         """
         stored = specimen_file.read(Path(path))
         return cls(**specimen_file.parts(stored))
 
     def save(self, path: Path | str) -> None:
-        """Write the specimen as JSON; doc/files has the keys.
+        """Write the specimen as JSON; the page on specimen files has the keys.
 
         Args:
             path: The file.
@@ -125,27 +134,33 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
     ) -> Specimen:
         """Return the specimen cut by joints, whose laws the material has (D35 to D37).
 
-        What lies outside, ends within a grain or lies on an earlier joint cuts nothing:
-        ``joint_cuts`` says how much. A joint none of whose lines cuts has no contacts.
+        A part of a line cuts nothing if it is outside, ends within a grain or coincides with an
+        earlier joint: ``joint_cuts`` reports its length. A joint none of whose lines cuts has no
+        contacts.
 
         Args:
             joints: By the name of the joint a line, rows x, y [m], or a list of lines.
-            progress: Called with (lines done, lines, text).
-            origin: Point of their map at that of the specimen, to be told in results [m].
+            progress: Function that is called with (lines done, lines, text).
+            origin: Point of the map at the origin of the specimen, reported in results [m].
 
         Returns:
-            Cells in their order, second parts of cut cells last.
+            The specimen; cells in their order, second parts of cut cells last.
 
         Raises:
-            InputError: if no line cuts anything, for a point that is not finite or further away
+            InputError: if no line cuts anything, for a point that is not finite or farther away
                 than 1e6 sizes of the specimen, and for more than 20 000 segments within it.
+
+        Example:
+            >>> cut = specimen.with_joints({"bedding": [(-0.01, 0.004), (0.02, 0.02)]})
+            >>> len(cut.discs) > len(specimen.discs)
+            True
         """
         return self._cut_by(checked_lines(joints), progress, origin)
 
     def _cut_by(
         self, lines: Lines, progress: Progress | None = None, origin: Point | None = None
     ) -> Specimen:
-        """Return the specimen cut by lines that are checked."""
+        """Return the specimen cut by validated lines."""
         if self.strengths is not None:
             raise InputError(
                 f"Specimen.with_joints: strengths = {len(self.strengths)}, belong to other "
@@ -186,12 +201,13 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         """Return the specimen cut by the joints of a CSV file, as ``--joints`` does.
 
         Args:
-            path: Segments, columns x1, y1, x2, y2 [m] and name; those of one name that follow each
-                other are one line.
-            progress: Called with (lines done, lines, text).
+            path: Segments, columns x1, y1, x2, y2 [m] and name. Consecutive segments with the same
+                name form a line.
+            progress: Function that is called with (lines done, lines, text).
 
         Raises:
-            InputError: if the file cannot be read or a row is no segment, and as ``with_joints``.
+            InputError: if the file cannot be read or a row is not a segment, and as
+                ``with_joints``.
         """
         return self.with_joints(read_lines(Path(path)), progress)
 
@@ -201,9 +217,10 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         """Return the specimen cut by the lines of a map, as ``--joints`` does.
 
         Args:
-            path: GeoJSON in metres with LineString and MultiLineString; others are left out.
-            name: Property that names the joint of a line; left out: ``name``, if all have it.
-            origin: Point of the map at the origin of the specimen [m]; left out: the lower left
+            path: GeoJSON in metres with LineString and MultiLineString; other geometries are
+                ignored.
+            name: Property that names the joint of a line; default: ``name``, if all lines have it.
+            origin: Point of the map at the origin of the specimen [m]; default: the lower left
                 corner of the lines.
 
         Raises:
@@ -260,10 +277,11 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
 
         Args:
             factors: For each contact, in the order of ``tessellation.shared_edges``, the factor of
-                cohesion and tensile strength [-]; the fracture energies have its square.
+                cohesion and tensile strength [-]; the factor of the fracture energies is its
+                square.
 
         Raises:
-            InputError: if it is not one number above zero for each contact.
+            InputError: unless there is one number > 0 for each contact.
         """
         strengths = contact_strengths.checked(factors, len(self.tessellation.shared_edges))
         spec = replace(self.spec, strengths=checksum(strengths))
@@ -274,16 +292,21 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
 
         Args:
             modulus: Weibull's modulus m [-]; the smaller, the wider the scatter.
-            seed: The same seed draws the same.
+            seed: The same seed generates the same strengths.
 
         Raises:
             InputError: for a modulus out of range.
+
+        Example:
+            >>> scattered = specimen.with_weibull_strengths(10.0)
+            >>> len(scattered.strengths) == specimen.statistics()["contacts"]
+            True
         """
         contacts = len(self.tessellation.shared_edges)
         return self.with_strengths(contact_strengths.weibull(modulus, seed, contacts))
 
     def joint_lines(self) -> list[FloatArray]:
-        """Ends (n, 2, 2) [m] of the contacts of each joint, in the order of their names."""
+        """Return the ends (n, 2, 2) [m] of the contacts of each joint, in the order of names."""
         cells, count = self.tessellation, len(self.spec.joint_names or ())
         ends = cells.vertices[cells.shared_edges[:, 2:]]
         return [ends[self.edge_joints == number] for number in range(count)]
@@ -301,13 +324,13 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         return found
 
     def with_minerals(self, minerals: Sequence[int] | IntArray) -> Specimen:
-        """Return the same grains, each of a given mineral.
+        """Return the same grains with a given mineral each.
 
         Args:
             minerals: For each grain an index into the minerals of the material.
 
         Raises:
-            InputError: if it is not one index for each grain.
+            InputError: unless there is one index for each grain.
         """
         given = mineral_indices(minerals, len(self.discs))
         spec = replace(self.spec, minerals=checksum(given))
@@ -325,7 +348,7 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
 
     @property
     def extent(self) -> dict[str, float]:
-        """Sizes of the shape by their names [m]; of a polygon those of its bounding box."""
+        """Sizes of the shape by their names [m]; for a polygon the sizes of its bounding box."""
         if self.dimensions:
             return self.dimensions
         assert not isinstance(self.outline, Circle)  # a circle has a diameter
@@ -334,7 +357,7 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
 
     @property
     def thickness(self) -> float:
-        """Out of plane [m]."""
+        """Thickness out of plane [m]."""
         return self.spec.thickness
 
     @property
@@ -344,7 +367,7 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
 
     @property
     def short_edge(self) -> float:
-        """Edges of cells below this share of the mean diameter were collapsed [-]."""
+        """Ratio to the mean diameter below which edges of cells were collapsed [-]."""
         return self.spec.short_edge
 
     @property
@@ -380,22 +403,22 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
 
     @property
     def side_depth(self) -> float:
-        """Factor from a length along a side to its area [m]."""
+        """Ratio of the area of a side to its length [m]."""
         return self.thickness
 
     @property
     def smallest_size(self) -> float:
-        """Smallest size of the box around it, or the diameter of a disc [m]."""
+        """Smallest size of its bounding box, or the diameter of a disc [m]."""
         if isinstance(self.outline, Circle):
             return self.dimensions["diameter"]
         return float(np.min(np.ptp(self.outline, axis=0)))
 
     @property
     def corners(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Lower left and upper right corner of the rectangle around it [m].
+        """Lower left and upper right corner of the bounding rectangle [m].
 
         Raises:
-            SimulationError: for a circle, which no test between parts takes.
+            SimulationError: for a circle, which no test between parts accepts.
         """
         if isinstance(self.outline, Circle):
             raise SimulationError("outline = a circle, must be a polygon for a test between parts")
@@ -409,7 +432,7 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         return float(self.outline[:, 1].min()), float(self.outline[:, 1].max())
 
     def wall_distances(self) -> FloatArray:
-        """Distance of each centre from the nearest side of a rectangle [m], else infinite."""
+        """Return the distance of each centre from the nearest side of a rectangle [m]; else inf."""
         if self.kind != "rectangle" or isinstance(self.outline, Circle):
             return np.full(len(self.discs), np.inf)
         low, high = self.outline.min(axis=0), self.outline.max(axis=0)
@@ -417,7 +440,7 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         return found
 
     def lines_of(self, joint: str) -> FloatArray:
-        """Ends (n, 2, 2) [m] of the contacts of a joint; none if it has no joint of that name."""
+        """Return the ends (n, 2, 2) [m] of the contacts of a joint; none for an unknown name."""
         names = self.spec.joint_names or ()
         return self.joint_lines()[names.index(joint)] if joint in names else np.empty((0, 2, 2))
 
@@ -428,7 +451,7 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
             mesh: ``refined`` or ``fan``.
 
         Returns:
-            The kernel's meshes: nodes, triangles and their offsets per grain as arrays.
+            The kernel's meshes: arrays of nodes and triangles, and their offsets per grain.
 
         Raises:
             InputError: for an unknown mesh.
@@ -440,7 +463,12 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         """Count and measure grains, contacts, cells, meshes and joints.
 
         Returns:
-            Counts, areas [m^2], lengths [m], angles [degree]; see the keys.
+            Counts, areas [m2], lengths [m], angles [degree]; see the keys.
+
+        Example:
+            >>> found = specimen.statistics()
+            >>> found["grains"], found["contacts"], round(found["mean_diameter"] * 1e3, 2)
+            (37, 85, 2.84)
         """
         joints = {name: cut.to_json() for name, cut in self.joint_cuts.items()}
         networks = self.network_intensities()
@@ -460,10 +488,10 @@ AnySpecimen = Specimen | SolidSpecimen
 
 
 def require_specimen(where: str, given: object) -> None:
-    """Refuse what is no specimen.
+    """Raise an error unless the value is a specimen.
 
     Raises:
-        InputError: for anything else.
+        InputError: for any other value.
     """
     if not isinstance(given, AnySpecimen):
         raise InputError(f"{where}: specimen = {quoted(given)}, must be a Specimen")

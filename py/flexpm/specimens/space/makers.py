@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ways to make a solid specimen, which ``Specimen`` has beside those of plane ones. SI units."""
+"""Constructors of 3D specimens, which ``Specimen`` has in addition to 2D ones. SI units."""
 
 from __future__ import annotations
 
@@ -17,22 +17,30 @@ from .specimen import SolidSpecimen
 
 
 class SolidShapes:
-    """Makers of solid specimens; see doc/solids."""
+    """Constructors of 3D specimens; see doc/solids."""
 
     @staticmethod
     def box(width: float, depth: float, height: float, **packing: Unpack[Packing]) -> SolidSpecimen:
         """Pack a box with a corner at the origin; z is the axial direction.
 
         Args:
-            width: Along x [m].
-            depth: Along y [m].
-            height: Along z [m].
-            packing: ``diameters``, ``porosity``, ``seed``, ``short_edge`` (0.10 if left out) and
+            width: Size along x [m].
+            depth: Size along y [m].
+            height: Size along z [m].
+            packing: ``diameters``, ``porosity``, ``seed``, ``short_edge`` (default: 0.10) and
                 ``progress`` as for ``rectangle``, of spheres.
+
+        Returns:
+            The specimen.
 
         Raises:
             InputError: for a value out of range, spheres that do not fit, or more grains than the
                 machine has memory for.
+
+        Example:
+            >>> solid = flexpm.Specimen.box(0.008, 0.008, 0.012)
+            >>> len(solid.spheres), solid.kind
+            (44, 'box')
         """
         return _packed("box", {"width": width, "depth": depth, "height": height}, packing)
 
@@ -42,11 +50,15 @@ class SolidShapes:
 
         Args:
             diameter: Diameter of the specimen [m].
-            height: Along z, the axial direction [m].
+            height: Size along z, the axial direction [m].
             packing: As for ``box``.
 
         Raises:
             InputError: as for ``box``.
+
+        Example:
+            >>> flexpm.Specimen.cylinder(0.008, 0.012).dimensions
+            {'diameter': 0.008, 'height': 0.012}
         """
         return _packed("cylinder", {"diameter": diameter, "height": height}, packing)
 
@@ -91,24 +103,31 @@ class SolidShapes:
         short_edge: float = SHORT_EDGE,
         drop_hidden: bool = False,
     ) -> SolidSpecimen:
-        """Make a solid of given spheres: a box, a cylinder or, without `height`, a disc.
+        """Make a 3D specimen of given spheres: a box, a cylinder or, without `height`, a disc.
 
         Args:
             spheres: Rows x, y, z, radius [m], centres inside the outline, or a text file of such
-                rows, between blanks or commas.
-            height: That of a box or a cylinder, along z, from 0 [m].
+                rows, separated by blanks or commas.
+            height: Height of a box or a cylinder, along z, from 0 [m].
             width: Width of a box, along x from 0 [m].
             depth: Depth of a box or a disc, along y from 0 [m].
             diameter: Diameter of a cylinder about the z axis, or of a disc about the y axis [m].
-            short_edge: Collapse edges of cells below this share of the mean diameter [-]; 0: none.
-            drop_hidden: Leave out spheres that others hide, and count them in ``removed_spheres``.
+            short_edge: Ratio to the mean diameter below which edges of cells are collapsed [-]; 0:
+                none.
+            drop_hidden: Leave out spheres without a cell, and count them in ``removed_spheres``.
 
         Returns:
             The specimen, grains in the order of the spheres.
 
         Raises:
-            InputError: for a size that is missing or out of range, a sphere outside, in the place
-                of another or hidden by others, by its number.
+            InputError: for a size that is missing or out of range, a sphere that is outside,
+                coincides with another sphere or has no cell; the message has its index.
+
+        Example:
+            >>> spheres = [(0.002, 0.002, 0.002, 0.002), (0.002, 0.002, 0.006, 0.002)]
+            >>> two = flexpm.Specimen.from_spheres(spheres, width=0.004, depth=0.004, height=0.008)
+            >>> two.statistics()["contacts"]
+            1
         """
         sizes = {"height": height, "width": width, "depth": depth, "diameter": diameter}
         return SolidSpecimen.of_spheres(
@@ -119,24 +138,25 @@ class SolidShapes:
     def from_tess_solid(
         path: Path | str, *, scale: float = 1.0, short_edge: float = SHORT_EDGE
     ) -> SolidSpecimen:
-        """Make a solid of the cells of a tessellation of Neper in space, a ``.tess`` file.
+        """Make a 3D specimen of the cells of a 3D tessellation of Neper, a ``.tess`` file.
 
-        Where the cells are the Laguerre cells of the seeds in the file the seeds are the centres
-        (D76); others are given cells about their centroids (D97). A box moves to the origin, and so
-        does a cylinder, which has the diameter of its area and is turned about z.
+        If the cells are the Laguerre cells of the seeds in the file, the seeds are the centres
+        (D76). Other cells have their centroids as centres (D97). A box or a cylinder is moved to
+        the origin. A cylinder gets the diameter of a circle of its area and is rotated about z.
 
         Args:
             path: The file, of format 2.0 or later, of convex cells with plane faces in a box along
-                x, y and z or in an upright cylinder of 16 facets or more.
+                x, y and z or in an upright cylinder of at least 16 facets.
             scale: Length of the file's unit [m].
-            short_edge: Collapse edges of cells below this share of the mean diameter [-]; 0: none.
+            short_edge: Ratio to the mean diameter below which edges of cells are collapsed [-]; 0:
+                none.
 
         Returns:
             The specimen, grains in the order of the file.
 
         Raises:
-            InputError: for a file that is none of cells in space or is broken, with its line; for
-                cells that are not convex, closed or in such a solid and bent faces, by number.
+            InputError: for a file that has no 3D cells or is broken, with its line; for cells that
+                are not convex, not closed, bent or outside of such a solid, with their indices.
         """
         from .tess import specimen_of
 
@@ -144,10 +164,10 @@ class SolidShapes:
 
     @staticmethod
     def load_solid(path: Path | str) -> SolidSpecimen:
-        """Read a solid that its ``save`` has written: the same grains to the bit.
+        """Read a 3D specimen that its ``save`` has written, with bit-identical grains.
 
         Raises:
-            InputError: if the file cannot be read, is no solid specimen, or was changed.
+            InputError: if the file cannot be read, is not a 3D specimen, or was changed.
         """
         return SolidSpecimen.load(path)
 

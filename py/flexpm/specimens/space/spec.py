@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a solid specimen is made from, as plain values that files can hold. SI units.
+"""Inputs from which a 3D specimen is made, as plain values that files can hold. SI units.
 
-Nothing heavy is loaded here, so that inputs are checked before YADE starts.
+No heavy library is imported here, so that inputs are checked before YADE starts.
 """
 
 from __future__ import annotations
@@ -37,21 +37,21 @@ _MEMORY = 30_000
 
 @dataclass(frozen=True)
 class SolidSpec:
-    """Shape, size and packing of a solid, or a checksum of what was given instead of a packing.
+    """Shape, size and packing of a 3D specimen, or checksums of given spheres or cells.
 
     Attributes:
         kind: ``box``, ``cylinder``, ``solid-disc`` or ``solid-half-disc``.
         width: Width of a box, along x [m]; if None its default, and None for another shape.
-        depth: Depth of a box, a disc or half of one, along y [m]; None as for `width`.
-        height: That of a box or a cylinder, along z, the axis of tests [m]; None as for `width`.
-        diameter: Diameter of a cylinder, a disc or half of one [m]; None as for `width`.
-        diameters: Smallest and largest diameter of the packed spheres [m]; None for given ones.
-        porosity: Sets the number of packed spheres [-]; None for given ones.
+        depth: Depth of a box, a disc or half a disc, along y [m]; None as for `width`.
+        height: Height of a box or a cylinder, along z, the axis of tests [m]; None as for `width`.
+        diameter: Diameter of a cylinder, a disc or half a disc [m]; None as for `width`.
+        diameters: Smallest and largest diameter of the packed spheres [m]; None for given spheres.
+        porosity: Ratio that sets the number of packed spheres [-]; None for given spheres.
         seed: Seed of the packing; None for given spheres.
-        short_edge: Edges of cells below this share of the mean diameter are collapsed [-].
+        short_edge: Ratio to the mean diameter below which edges of cells are collapsed [-].
         spheres: Checksum of given spheres; None for a packing.
-        minerals: Checksum of given minerals of the grains; None if there are none.
-        cells: Checksum of cells that were given; None: they are those of the spheres.
+        minerals: Checksum of given minerals of the grains; None without given minerals.
+        cells: Checksum of given cells; None: cells of the spheres.
     """
 
     kind: str = "box"
@@ -99,19 +99,19 @@ class SolidSpec:
 
     @property
     def is_packed(self) -> bool:
-        """Whether a packing gives the specimen again, without a file."""
+        """Whether a packing reproduces the specimen without a file."""
         return self.spheres is None and self.minerals is None
 
     @property
     def is_laguerre(self) -> bool:
-        """Whether all cells are those of spheres."""
+        """Whether all cells are Laguerre cells of spheres."""
         return self.cells is None
 
     def require_alike(self, model: str) -> None:
-        """A solid has neither joints nor strengths of its own: any model takes it."""
+        """Accept any model: a 3D specimen has no joints and no strengths of single contacts."""
 
     def require_discs(self, model: str) -> None:
-        """Refuse given cells, for a model of spheres: those of a packing are its grains'."""
+        """Reject given cells for a model of spheres; cells of a packing have spheres."""
         if self.cells is not None:
             raise InputError(
                 f"model = {model}, must be one of cells for a specimen of given cells; use "
@@ -129,7 +129,7 @@ class SolidSpec:
         return 0.5 * whole if self.kind == "solid-half-disc" else whole
 
     def require_memory(self) -> None:
-        """Refuse a packing that the machine has no memory for, before it is begun."""
+        """Raise an error before the packing begins if the machine has too little memory."""
         if self.diameters is None or self.porosity is None:
             return
         low, high = self.diameters
@@ -138,7 +138,7 @@ class SolidSpec:
         require_memory(f"Specimen.{self.kind}", grains, _MEMORY)
 
     def _size(self, where: str, name: str) -> float | None:
-        """A size that the shape has, or None."""
+        """Return a size that the shape has, or None."""
         value = getattr(self, name)
         if name not in SIZES[self.kind]:
             if value is not None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solid specimens of bonded polyhedral grains: spheres, Laguerre cells, and figures of them."""
+"""3D specimens of bonded polyhedral grains: spheres, Laguerre cells, and measures of them."""
 
 from __future__ import annotations
 
@@ -31,19 +31,24 @@ from .spec import SHORT_EDGE, SIZES, SolidSpec
 @with_old_names
 @dataclass(frozen=True, eq=False)
 class SolidSpecimen(PlaneOnly):
-    """Bonded polyhedral grains that fill a box, a cylinder, a disc or half of one.
+    """Bonded polyhedral grains that fill a box, a cylinder, a disc or half a disc.
 
-    Make it by ``Specimen.box``, ``cylinder``, ``solid_disc``, ``solid_half_disc``,
+    Make a 3D specimen with ``Specimen.box``, ``cylinder``, ``solid_disc``, ``solid_half_disc``,
     ``from_spheres``, ``from_tess_solid`` or ``load_solid``.
 
     Attributes:
-        spheres: Rows x, y, z, radius [m], one per grain: its sphere, or the centroid of a cell that
-            was given and the radius of a ball of its volume.
+        spheres: Rows x, y, z, radius [m], one per grain: the sphere of a Laguerre cell. For a given
+            cell its centroid, and the radius of a ball of its volume.
         cells: Cells of the grains; cell i belongs to sphere i.
-        spec: What it was made from.
+        spec: Inputs from which the specimen was made.
         removed_spheres: Spheres that had no cell and were left out.
-        minerals: Index of each grain's mineral in its material; None: drawn by volume fractions.
-        given: Cells that were given, before short edges were collapsed; None: those of spheres.
+        minerals: Index of each grain's mineral in its material; None: sampled by volume fractions.
+        given: Given cells, before short edges were collapsed; None: cells of spheres.
+
+    Example:
+        >>> core = flexpm.Specimen.cylinder(0.008, 0.012)
+        >>> len(core.spheres), core.kind
+        (35, 'cylinder')
     """
 
     spheres: FloatArray
@@ -58,7 +63,7 @@ class SolidSpecimen(PlaneOnly):
         """Pack the specimen that `spec` describes.
 
         Raises:
-            InputError: for spheres that do not fit, or that were given instead of packed.
+            InputError: for spheres that do not fit, or for a `spec` of given spheres.
         """
         where = f"Specimen.{spec.kind}"
         if not spec.is_packed:
@@ -136,11 +141,11 @@ class SolidSpecimen(PlaneOnly):
 
     @classmethod
     def load(cls, path: Path | str) -> SolidSpecimen:
-        """Read a specimen that ``save`` has written: the same grains to the bit.
+        """Read a specimen that ``save`` has written, with bit-identical grains.
 
         Raises:
-            InputError: if the file cannot be read, is no solid specimen, or was changed, or if its
-                spheres are not those that it says it was made from.
+            InputError: if the file cannot be read, is not a 3D specimen, or was changed, or if its
+                spheres do not agree with its inputs.
         """
         content = file.read(Path(path))
         spec: SolidSpec = content["spec"]
@@ -161,7 +166,7 @@ class SolidSpecimen(PlaneOnly):
         return cls(spheres, cells, spec, content["removed_spheres"], given, own)
 
     def save(self, path: Path | str) -> None:
-        """Write the specimen as JSON: what it was made from, its spheres, and given cells.
+        """Write the specimen as JSON: its inputs, its spheres, and given cells.
 
         Args:
             path: The file.
@@ -178,14 +183,14 @@ class SolidSpecimen(PlaneOnly):
         )
 
     def with_minerals(self, minerals: Sequence[int] | IntArray) -> SolidSpecimen:
-        """Return the same grains, each of a given mineral; see ``Specimen.with_minerals``."""
+        """Return the same grains with a given mineral each; see ``Specimen.with_minerals``."""
         given = mineral_indices(minerals, len(self.spheres))
         spec = dataclasses.replace(self.spec, minerals=checksum(given))
         return dataclasses.replace(self, minerals=given, spec=spec)
 
     @property
     def mineral_names(self) -> tuple[str, ...]:
-        """None: minerals of a solid are given by their places in the material."""
+        """None: minerals of a 3D specimen are indices into the material."""
         return ()
 
     @property
@@ -210,9 +215,9 @@ class SolidSpecimen(PlaneOnly):
 
     @property
     def thickness(self) -> float:
-        """Depth of a disc or half of one, else the root of the section's area [m].
+        """Depth of a disc or half a disc, else the square root of the area of the section [m].
 
-        With the scales' width it gives the area that the stress refers to.
+        Multiplied by the width of the scales it is the area to which the stress refers.
         """
         if "height" not in self.dimensions:
             return self.dimensions["depth"]
@@ -229,17 +234,17 @@ class SolidSpecimen(PlaneOnly):
 
     @property
     def before(self) -> SolidSpecimen | None:
-        """The solid before notches of a test have cut its cells; None without any."""
+        """The 3D specimen before notches of a test have cut its cells; None without notches."""
         return None
 
     @property
     def parents(self) -> IntArray | None:
-        """Grain of the solid before that each grain is, or is a piece of."""
+        """Index of each grain's grain before notches have cut cells; None without notches."""
         return None
 
     @property
     def depth(self) -> float | None:
-        """Size along y of a box, a disc or half of one [m]."""
+        """Size along y of a box, a disc or half a disc [m]."""
         return self.dimensions.get("depth")
 
     @property
@@ -267,14 +272,14 @@ class SolidSpecimen(PlaneOnly):
         return 0.0, self.dimensions["height"]
 
     def wall_distances(self) -> FloatArray:
-        """Distance of each centre from the nearest wall [m]."""
+        """Return the distance of each centre from the nearest wall [m]."""
         x, y, z = self.centres.T
         walls = self.outline().walls.tolist()
         found: FloatArray = np.min([d - (a * x + b * y + c * z) for a, b, c, d in walls], axis=0)
         return found
 
     def lines_of(self, joint: str) -> FloatArray:
-        """Ends (n, 2, 2) [m] of notches in the section along x and z: none."""
+        """Return the ends (n, 2, 2) [m] of notches in the section along x and z: none."""
         return np.empty((0, 2, 2))
 
     def joint_lines(self) -> list[FloatArray]:
@@ -314,7 +319,7 @@ class SolidSpecimen(PlaneOnly):
         return 2.0 * float(np.mean(self.spheres[:, 3]))
 
     def outline(self) -> Solid:
-        """What the cells fill, with the walls that their outer faces lie on."""
+        """Return the region that the cells fill, with the walls that contain their outer faces."""
         if self.given is not None:
             return self.given.outline(self.spec)
         return of_spheres.outline_of(self.spheres, self.spec)
@@ -328,7 +333,7 @@ class SolidSpecimen(PlaneOnly):
         return call(fan_meshes, self.cells)
 
     def tetrahedra(self) -> tuple[FloatArray, IntArray, IntArray]:
-        """Nodes (n, 3) [m] and tetrahedra (m, 4) of all grains, and the grain of each (m,)."""
+        """Return nodes (n, 3) [m] and tetrahedra (m, 4) of all grains, and their grains (m,)."""
         meshes, cells = self.meshes(), self.cells
         firsts, ends = meshes.node_offsets, meshes.element_offsets
         nodes = cells.vertices[meshes.node_vertices]  # the last one of each grain is its centre
@@ -337,11 +342,11 @@ class SolidSpecimen(PlaneOnly):
         return nodes, meshes.elements + firsts[grains][:, None], grains
 
     def contact_polygons(self) -> list[IntArray]:
-        """Vertices of each contact, in the order of ``cells.faces``."""
+        """Return the vertices of each contact, in the order of ``cells.faces``."""
         return of_spheres.polygons(self.cells, 0, self.cells.contacts)
 
     def outer_polygons(self) -> list[IntArray]:
-        """Vertices of each face on the outside, counter-clockwise as seen from there."""
+        """Return the vertices of each outer face, counter-clockwise as seen from outside."""
         return of_spheres.polygons(self.cells, self.cells.contacts, len(self.cells.faces))
 
     def statistics(self) -> Table:
@@ -349,6 +354,11 @@ class SolidSpecimen(PlaneOnly):
 
         Returns:
             Counts, volumes [m3], lengths [m]; see the keys.
+
+        Example:
+            >>> found = solid.statistics()
+            >>> found["grains"], found["contacts"], found["tetrahedra"]
+            (44, 178, 1128)
         """
         return {
             **of_spheres.figures(self.cells, self.meshes()),
