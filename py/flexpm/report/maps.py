@@ -52,13 +52,13 @@ def specimen_picture(
     caption: str = "",
     joints: Sequence[FloatArray] = (),
 ) -> None:
-    """Draw the grains of a specimen.
+    """Plot the grains of a specimen.
 
     Args:
-        path: Picture to write.
+        path: File of the figure.
         polygons: Corners (V, 2) of each grain [m].
-        mesh: Nodes (N, 2) [m] and triangles (M, 3) to draw in the grains.
-        caption: Line above the picture.
+        mesh: Nodes (N, 2) [m] and triangles (M, 3) to plot in the grains.
+        caption: Line above the map.
         joints: Ends (n, 2, 2) [m] of the contacts of each joint.
     """
     with rc_context(STYLE):
@@ -83,14 +83,14 @@ def grain_picture(
     names: Sequence[str] = (),
     caption: str = "",
 ) -> None:
-    """Draw cells in the colour of their mineral, or of their grain.
+    """Plot cells in the colour of their mineral, or of their grain.
 
     Args:
-        path: Picture to write.
+        path: File of the figure.
         polygons: Corners (V, 2) of each cell [m].
-        kinds: Index of the mineral of each cell, or number of its grain.
+        kinds: Index of the mineral of each cell, or index of its grain.
         names: Names of the minerals, for a legend; none: `kinds` are grains.
-        caption: Line above the picture.
+        caption: Line above the map.
     """
     tints = _tints(kinds) if not names else [MINERALS[kind % len(MINERALS)] for kind in kinds]
     with rc_context(STYLE):
@@ -116,19 +116,19 @@ def crack_picture(
     parts: Sequence[Table] = (),
     joints: Sequence[int] = (),
 ) -> None:
-    """Draw the deformed grains with their cracks; each point colours its share of a contact.
+    """Plot the deformed grains with their cracks; each point colours its tributary length.
 
-    A state that has no place, of a run that has diverged, is not drawn.
+    A state without positions, of a run that has diverged, is not plotted.
 
     Args:
-        path: Picture to write.
+        path: File of the figure.
         snapshot: The state.
-        caption: Line above the picture.
-        minerals: Their names, for the legend.
-        notches: Numbers of contacts that were cut open before the test.
+        caption: Line above the map.
+        minerals: Names of the minerals, for the legend.
+        notches: Indices of contacts that were cut open before the test.
         by_pair: Cracks of each pair of minerals by mode, for the legend.
         parts: Parts of a rig, with their faces.
-        joints: Numbers of contacts of joints that were not cut open.
+        joints: Indices of contacts of joints that were not cut open.
     """
     if not can_be_drawn(snapshot.positions):
         remove_earlier(path)
@@ -146,7 +146,7 @@ def crack_figure(
     parts: Sequence[Table] = (),
     joints: Sequence[int] = (),
 ) -> Figure:
-    """The figure of `crack_picture`."""
+    """Return the figure of `crack_picture`."""
     with rc_context(STYLE):
         figure, axes = map_figure([snapshot.positions])
         handles = draw_cracks(axes, snapshot)
@@ -169,7 +169,7 @@ def crack_figure(
 
 
 def draw_cracks(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
-    """Draw the deformed grains and their cracks [mm]; return the handles of a legend."""
+    """Plot the deformed grains and their cracks [mm]; return the handles of a legend."""
     tints = None
     if snapshot.grain_mineral is not None:
         tints = [MINERALS[number % len(MINERALS)] for number in snapshot.grain_mineral]
@@ -188,7 +188,7 @@ def draw_cracks(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
 
 
 def draw_grains(axes: Axes, snapshot: Snapshot) -> None:
-    """Draw the deformed grains and a scale bar below them [mm]."""
+    """Plot the deformed grains and a scale bar below them [mm]."""
     _draw_rock(axes, snapshot)
     draw_scale_bar(axes)
 
@@ -201,7 +201,7 @@ def _mineral_handles(names: Sequence[str]) -> list[Patch]:
 
 
 def _pair_handles(by_pair: Mapping[str, Mapping[str, int]]) -> list[Patch]:
-    """Lines of a legend without a colour: the pairs that have cracked most."""
+    """Return lines of a legend without a colour: the pairs of minerals with most cracks."""
     order = sorted(by_pair, key=lambda pair: (-sum(by_pair[pair].values()), pair))
     texts = [
         f"{pair}: {', '.join(f'{number} {mode}' for mode, number in by_pair[pair].items())}"
@@ -213,7 +213,7 @@ def _pair_handles(by_pair: Mapping[str, Mapping[str, int]]) -> list[Patch]:
 
 
 def _draw_cut(axes: Axes, snapshot: Snapshot, contacts: Sequence[int], name: str) -> list[Line2D]:
-    """Draw what was cut before the test, joints below the cracks; a handle if there is any."""
+    """Plot cuts from before the test, joints below the cracks; return a handle if any exists."""
     if not len(ends := snapshot.contact_ends[np.isin(snapshot.contact, contacts)]):
         return []
     colour, order = (_JOINT, 1.4) if name == "joints" else (CUT, 1.6)
@@ -222,7 +222,7 @@ def _draw_cut(axes: Axes, snapshot: Snapshot, contacts: Sequence[int], name: str
 
 
 def _draw_parts(axes: Axes, parts: Sequence[Table]) -> list[Line2D]:
-    """Draw plates and boxes around held nodes where they were laid; a handle if there are any."""
+    """Plot plates and boxes around fixed nodes where they were placed; return a handle if any."""
     if not (faces := [1e3 * np.array(part["face"]) for part in parts if part.get("face")]):
         return []
     axes.add_collection(LineCollection(faces, colors=_PART, linewidths=2.6, zorder=1.7))
@@ -230,7 +230,7 @@ def _draw_parts(axes: Axes, parts: Sequence[Table]) -> list[Line2D]:
 
 
 def _draw_erased(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
-    """Draw the erased bonds between grains that are there, as cuts; a handle if there are any."""
+    """Plot the erased bonds between existing grains as cuts; return a handle if any exists."""
     if snapshot.erased_ends is None:
         return []
     cuts = snapshot.erased_ends[np.all(np.isfinite(snapshot.erased_ends), axis=(1, 2))]
@@ -245,13 +245,13 @@ def _draw_erased(axes: Axes, snapshot: Snapshot) -> list[Line2D]:
 def fragment_picture(
     path: Path | str, snapshot: Snapshot, caption: str = "", of: Fragments | None = None
 ) -> None:
-    """Draw the deformed grains in the colour of their fragment.
+    """Plot the deformed grains in the colour of their fragment.
 
-    Grains of the largest fragment are pale, grains that hang on no other one are dark.
+    Grains of the largest fragment are pale; grains without any connection are dark.
 
     Args:
-        path, snapshot, caption: As for `crack_picture`; the number of fragments stands below.
-        of: Fragments of the solid that the state is a section of; None: of the state.
+        path, snapshot, caption: As for `crack_picture`; the number of fragments is below the map.
+        of: Fragments of the 3D state of which `snapshot` is a section; None: of `snapshot`.
     """
     if not can_be_drawn(snapshot.positions):
         remove_earlier(path)
@@ -261,7 +261,7 @@ def fragment_picture(
 
 
 def fragment_figure(snapshot: Snapshot, caption: str = "", of: Fragments | None = None) -> Figure:
-    """The figure of `fragment_picture`."""
+    """Return the figure of `fragment_picture`."""
     found = snapshot.fragments if of is None else of
     colours = [
         _FRAGMENTS[rank % len(_FRAGMENTS)] if grains > 1 else _LOOSE
@@ -315,7 +315,7 @@ def grain_corners(triangles: IntArray) -> list[IntArray]:
 
 
 def _grains_of(snapshot: Snapshot, outlines: Sequence[IntArray]) -> IntArray:
-    """Grain of each outline."""
+    """Return the grain of each outline."""
     node_grain = np.zeros(len(snapshot.positions), dtype=int)
     node_grain[np.ravel(snapshot.triangles)] = np.repeat(snapshot.triangle_grain, 3)
     return node_grain[[corners[0] for corners in outlines]]
@@ -328,7 +328,7 @@ def crack_segments(snapshot: Snapshot) -> dict[int, FloatArray]:
 
 
 def map_figure(polygons: Sequence[FloatArray]) -> tuple[Figure, Axes]:
-    """A figure of the size and the axes [mm] of a map, for grains with these corners [m]."""
+    """Return a figure with the size and the axes [mm] of a map, for grains with corners [m]."""
     corners = 1e3 * np.concatenate(polygons)
     low, high = corners.min(axis=0), corners.max(axis=0)
     width, height = high - low
@@ -343,10 +343,10 @@ def map_figure(polygons: Sequence[FloatArray]) -> tuple[Figure, Axes]:
 
 
 def _draw_rock(axes: Axes, snapshot: Snapshot, tints: Sequence[str] | None = None) -> None:
-    """Draw the deformed grains, those of inner particles without lines between these.
+    """Plot the deformed grains; without lines between inner particles.
 
     Args:
-        axes: Where to draw.
+        axes: Axes to plot in.
         snapshot: The state.
         tints: Colour of each grain.
     """

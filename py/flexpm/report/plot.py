@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures that scripts draw, ``flexpm.plot``: maps of a state and the curve of a result.
+"""Plots for scripts, ``flexpm.plot``: maps of a state and the curve of a result.
 
-Each map is a figure of matplotlib, which a notebook shows and ``savefig`` writes; with a path it is
-written, too. States in SI units; labels in mm, MPa and um.
+Each map is a matplotlib figure, which a notebook shows and ``savefig`` writes. If a path is given,
+the figure is also written. States are in SI units; labels in mm, MPa and um.
 """
 
 from __future__ import annotations
@@ -51,15 +51,24 @@ _COVERED = 0.99
 
 
 def cracks(snapshot: AnySnapshot, path: Path | str | None = None, *, caption: str = "") -> Figure:
-    """Draw the deformed grains with their cracks by mode.
+    """Plot the deformed grains with their cracks by mode.
 
     Args:
-        snapshot: The state, ``model.snapshot()``; of a solid its section is drawn.
-        path: Picture to write; None: none.
-        caption: Line above the picture.
+        snapshot: The state, ``model.snapshot()``; of a 3D state its section is plotted.
+        path: File of the figure; None writes no file.
+        caption: Line above the map.
+
+    Returns:
+        The figure.
 
     Raises:
-        InputError: for what is no state, or one without places, of a run that has diverged.
+        InputError: for a value that is not a state, or a state without positions, of a run that
+            has diverged.
+
+    Example:
+        >>> figure = flexpm.plot.cracks(flexpm.build(specimen).snapshot(), caption="Intact")
+        >>> len(figure.axes) > 0
+        True
     """
     snapshot, _ = _drawn("cracks", snapshot)
     return _kept(crack_figure(snapshot, caption), path)
@@ -68,7 +77,7 @@ def cracks(snapshot: AnySnapshot, path: Path | str | None = None, *, caption: st
 def fragments(
     snapshot: AnySnapshot, path: Path | str | None = None, *, caption: str = ""
 ) -> Figure:
-    """Draw the deformed grains in the colour of their fragment; see `cracks`."""
+    """Plot the deformed grains in the colour of their fragment; see `cracks`."""
     snapshot, of = _drawn("fragments", snapshot)
     return _kept(fragment_figure(snapshot, caption, of), path)
 
@@ -80,15 +89,16 @@ def stress(
     *,
     caption: str = "",
 ) -> Figure:
-    """Draw the stress in the deformed grains [MPa], tension positive; see `cracks`.
+    """Plot the stress in the deformed grains [MPa], tension positive; see `cracks`.
 
-    Rigid grains have one colour each, the mean that the forces on them give; the picture says so.
+    Rigid grains have one colour each: the mean stress from the forces on them. A note in the figure
+    states this.
 
     Args:
         snapshot: The state.
-        component: ``xx``, ``yy``, ``xy``, ``principal_1`` (the larger one) or ``principal_2``.
-        path: Picture to write; None: none.
-        caption: Line above the picture.
+        component: ``xx``, ``yy``, ``xy``, ``principal_1`` (the larger stress) or ``principal_2``.
+        path: File of the figure; None writes no file.
+        caption: Line above the map.
     """
     snapshot, _ = _drawn("stress", snapshot)
     require_one_of("plot.stress: component", component, tuple(STRESSES))
@@ -122,13 +132,13 @@ def displacement(
     *,
     caption: str = "",
 ) -> Figure:
-    """Draw how far the grains have moved since they were bonded [um]; see `cracks`.
+    """Plot the displacement of the grains since they were bonded [um]; see `cracks`.
 
     Args:
         snapshot: The state.
         component: ``size``, ``x`` or ``y``.
-        path: Picture to write; None: none.
-        caption: Line above the picture.
+        path: File of the figure; None writes no file.
+        caption: Line above the map.
     """
     snapshot, _ = _drawn("displacement", snapshot)
     require_one_of("plot.displacement: component", component, tuple(DISPLACEMENTS))
@@ -149,7 +159,7 @@ def displacement(
 
 
 def _drawn(name: str, state: object) -> tuple[Snapshot, Fragments]:
-    """What is drawn of a state, the section of a solid, and the fragments of all of it."""
+    """Return the plotted state (3D: its section) and the fragments of the entire state."""
     if not isinstance(state, AnySnapshot):
         raise InputError(
             f"plot.{name}: snapshot = {quoted(state)}, must be a state, `built.snapshot()`"
@@ -169,7 +179,7 @@ def _draw_scale(figure: Figure, axes: Axes, drawn: ScalarMappable, label: str) -
 
 
 def _kept(figure: Figure, path: Path | str | None) -> Figure:
-    """The figure, written if it has a path."""
+    """Return the figure; write it if a path is given."""
     if path is not None:
         with rc_context(STYLE):
             save(figure, path)

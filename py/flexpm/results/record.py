@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Record of a test step by step. SI units.
 
-Axial stress and strain count positive in the sense of the loading: compression in compression
+Axial stress and strain are positive in the sense of the loading: compression in compression
 tests, tension in tension tests. The lateral strain is positive as Poisson's effect: widening in
 compression tests, narrowing in tension tests.
 """
@@ -51,17 +51,23 @@ INTEGERS = ("step", "tensile_cracks", "shear_cracks")
 
 
 class Curve(Shown):
-    """Record of a test, a row for each step that was measured: ``curve["axial_stress"]``.
+    """Record of a test, a row for each measured step: ``curve["axial_stress"]``.
 
-    Amortised constant time to append, columns as numpy views. Its length is the number of rows; its
-    keys are the names of its columns, so that ``dict(curve)`` and ``"load" in curve`` work.
+    Appending takes amortised constant time, and columns are numpy views. The length of the record
+    is the number of rows. Its keys are the names of its columns, so that ``dict(curve)`` and
+    ``"load" in curve`` work.
+
+    Example:
+        >>> curve = flexpm.run("tension", specimen, rate=6.0).curve
+        >>> "axial_strain" in curve, len(curve["axial_stress"]) == len(curve)
+        (True, True)
     """
 
     def __init__(self, own: Sequence[str] = ()) -> None:
         """Begin an empty record.
 
         Args:
-            own: Names of the columns that this test has beside `COLUMNS`.
+            own: Names of the columns that this test has in addition to `COLUMNS`.
         """
         self.columns = (*COLUMNS, *own)
         self._data = np.empty((256, len(self.columns)))
@@ -81,7 +87,7 @@ class Curve(Shown):
         return self._rows
 
     def __getitem__(self, column: str) -> FloatArray:
-        """View of one column; it stays valid, but does not grow with later rows.
+        """Return a view of one column; it stays valid, but does not grow with later rows.
 
         Raises:
             InputError: for a column that the record does not have, with the nearest name.
@@ -91,7 +97,7 @@ class Curve(Shown):
         return self._data[: self._rows, self.columns.index(column)]
 
     def keys(self) -> tuple[str, ...]:
-        """Names of the columns."""
+        """Return the names of the columns."""
         return self.columns
 
     def __iter__(self) -> Iterator[str]:
@@ -107,7 +113,7 @@ class Curve(Shown):
         return f"Curve({self._rows} rows, steps {' to '.join(ends)}; {', '.join(self.columns)})"
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The record as a table of pandas, a copy.
+        """Return the record as a pandas table, a copy.
 
         Raises:
             InputError: if pandas is not installed.
@@ -145,19 +151,19 @@ class Curve(Shown):
 
     @property
     def own(self) -> tuple[str, ...]:
-        """Names of the columns beside `COLUMNS`."""
+        """Names of the columns in addition to `COLUMNS`."""
         return self.columns[len(COLUMNS) :]
 
     def until(self, row: int) -> Curve:
-        """The record before a row."""
+        """Return the rows of the record before a row."""
         return Curve.from_array(self.array[:row], self.own)
 
     @classmethod
     def read(cls, path: Path) -> Curve:
-        """Read what ``csv`` gave; a column that an older flexpm did not write is nan.
+        """Read the text that ``csv`` returned; a column that an older flexpm did not have is nan.
 
         Raises:
-            InputError: if the file cannot be read or holds no record.
+            InputError: if the file cannot be read or has no record.
         """
         names, rows = load_csv(path, "record")
         try:
@@ -173,7 +179,7 @@ class Curve(Shown):
         return cls.from_array(np.column_stack(columns), own)
 
     def csv(self) -> str:
-        """The record as CSV text; numbers are written so that they read back unchanged."""
+        """Return the record as CSV text; numbers are written so that they read back unchanged."""
         old = {
             one: self.columns.index(new)
             for one, new in RENAMED.items()

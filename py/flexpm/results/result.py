@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Outcome of a test: its numbers, its record, its cracks, and the files they go to. SI units."""
+"""Outcome of a test: its numbers, its record, its cracks, and their files. SI units."""
 
 from __future__ import annotations
 
@@ -50,7 +50,14 @@ _SECOND = "second_confinement"
 class Result(Shown):
     """Numbers of one test: the keys of result.json, then the record and the cracks.
 
-    None stands for a quantity that the test has not reached or does not define.
+    A quantity is None if the test has not reached it or does not define it.
+
+    Example:
+        >>> result = flexpm.run("tension", specimen, rate=6.0)
+        >>> print(f"{result.peak_stress / 1e6:.1f} MPa, {len(result.cracks)} cracks")
+        9.3 MPa, 14 cracks
+        >>> result.failed
+        False
     """
 
     flexpm: str  #: version of flexpm
@@ -151,7 +158,7 @@ class Result(Shown):
 
     @property
     def without_peak(self) -> str:
-        """What the record came to that has passed no peak, in words."""
+        """State that a record without a peak has reached, in words."""
         if self.ended_by != "plateau":
             return "no strength was found"
         stress = measures.plateau_stress(self.curve)
@@ -159,7 +166,13 @@ class Result(Shown):
 
     @property
     def warnings(self) -> list[str]:
-        """What makes the numbers doubtful, one line each; see ``doubts``."""
+        """Reasons why the numbers are questionable, one line each; see ``doubts``.
+
+        Example:
+            >>> result = flexpm.run("tension", specimen, rate=6.0)
+            >>> any("lower the rate" in line for line in result.warnings)
+            True
+        """
         record = measures.until_regained(self.curve) if kind_of(self.test).regains else self.curve
         mismatch = measures.median_end_mismatch(record)
         # a script's own test has no option of the command
@@ -250,7 +263,7 @@ class Result(Shown):
         self.status = self._status(diverged, peak, fast)
 
     def measure_core(self, *, solid: bool, dynamic: bool) -> None:
-        """Fill what a laboratory reads off a compressed core; the record gets its volume."""
+        """Fill the quantities that a laboratory measures on a core, and add its volume."""
         record = self.curve
         found = core.crack_thresholds(record, *self._moduli(dynamic=dynamic), solid=solid)
         for name, value in found.stresses.items():
@@ -259,11 +272,11 @@ class Result(Shown):
         self.curve = core.with_volume(record, solid=solid)
 
     def measure_first_cracks(self, origin: tuple[float, float], length: float) -> None:
-        """Fill where and at which stress the first cracks appear.
+        """Fill the position of the first cracks, and the stress at which they appear.
 
         Args:
-            origin: Place in the section where the formula of the test assumes them [m]: the centre
-                of a disc, the front of a notch.
+            origin: Position in the section where the formula of the test assumes them [m]: the
+                centre of a disc, or the tip of a notch.
             length: Radius of the disc, or ligament [m].
         """
         cracks = [crack for crack in self.cracks if crack.mode in MODES]
@@ -278,8 +291,8 @@ class Result(Shown):
     def start_moduli(self) -> tuple[float | None, float | None]:
         """Young's modulus [Pa] and Poisson's ratio [-] of the elastic start of the loading.
 
-        Where there is none, of particles, of spheres, and with real masses, they are those of the
-        record's elastic part.
+        Particles, spheres and real masses have no elastic start: the values then belong to the
+        elastic part of the record.
         """
         return self._moduli(dynamic=(self.inputs or {}).get("dynamic", False))
 
@@ -293,19 +306,19 @@ class Result(Shown):
 
         Args:
             wave: ``p`` or ``s``.
-            distance: Distance of the sections between which it is taken [m].
+            distance: Distance between the two sections of the measurement [m].
         """
         setattr(self, waves.name_of(wave), waves.speed(self.curve, distance))
 
     def measure_fragments(self, snapshot: AnySnapshot) -> None:
-        """Keep the final state and count what hangs together in it."""
+        """Store the final state and count its fragments."""
         found = snapshot.fragments
         self.snapshot = snapshot
         self.fragments = len(found)
         self.largest_fragment = float(found.areas[0] / found.areas.sum()) if len(found) else 0.0
 
     def measure_emission(self, rule: EventRule) -> None:
-        """Find the events among the cracks, and how many there are of each magnitude."""
+        """Find the events among the cracks, and count the events of each magnitude."""
         self.emission = find_events(self.cracks, rule)
         self.events = len(self.emission)
         found = frequencies(np.array([one.magnitude for one in self.emission]))
@@ -331,7 +344,13 @@ class Result(Shown):
         return "not_quasistatic" if fast else "ok"
 
     def as_dict(self) -> Table:
-        """The content of result.json; numbers that are not finite become None."""
+        """Return the content of result.json; numbers that are not finite become None.
+
+        Example:
+            >>> content = flexpm.run("tension", specimen, rate=6.0).as_dict()
+            >>> content["status"], content["inputs"]["test"]
+            ('not_quasistatic', 'tension')
+        """
         hidden = ("curve", "cracks", "emission", "snapshot", "resumed_at")
         content = {
             name: _plain(getattr(self, name))
@@ -347,15 +366,15 @@ class Result(Shown):
 
     @classmethod
     def read(cls, folder: Path | str, name: str = FINISHED) -> Result:
-        """Read what a run has left: numbers, inputs, record and cracks; no final state.
+        """Read the files of a run: numbers, inputs, record and cracks; no final state.
 
         Args:
-            folder: The run's, with result.json, curve.csv and cracks.csv.
-            name: File with the numbers: ``result.json``, or ``unfinished.json`` of a run that has
-                not ended.
+            folder: Folder of the run, with result.json, curve.csv and cracks.csv.
+            name: File with the numbers: ``result.json``, or ``unfinished.json`` if the run has not
+                ended.
 
         Raises:
-            InputError: if a file cannot be read, or is not that of a run.
+            InputError: if a file cannot be read, or does not belong to a run.
         """
         folder = Path(folder)
         content = current(load_json(folder / name, "result"))
@@ -371,11 +390,19 @@ class Result(Shown):
         return result
 
     def write(self, folder: Path | str, name: str = FINISHED) -> None:
-        """Write the tables and then the numbers into `folder`, each file whole or not at all.
+        """Write the tables and then the numbers into `folder`, each file completely or not at all.
 
         Args:
-            folder: It is made if it does not exist.
+            folder: Folder of the files; made if it does not exist.
             name: File of the numbers, see `read`.
+
+        Example:
+            >>> import tempfile
+            >>> folder = tempfile.mkdtemp()
+            >>> result = flexpm.run("tension", specimen, rate=6.0)
+            >>> result.write(folder)
+            >>> flexpm.Result.read(folder).peak_stress == result.peak_stress
+            True
         """
         folder = output_folder(folder)
         write_text(folder / "curve.csv", self.curve.csv())

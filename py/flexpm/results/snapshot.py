@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""State of a specimen as plain arrays, and what hangs together in it. SI units.
+"""State of a specimen as plain arrays, and its fragments. SI units.
 
 Stress, traction and opening are positive in tension.
 """
@@ -23,9 +23,14 @@ from .stress.tensors import means_by, principal_stresses
 class Snapshot:
     """Arrays of N nodes, M triangles, C contacts and their P points, contact after contact.
 
-    Nodes, triangles and contacts are those that exist. A cracked bond stays after its grains have
-    parted; one that a script has erased does not, only the record of E erased bonds and their R
-    points is left.
+    The arrays have all nodes, triangles and contacts that exist. A cracked bond stays after its
+    grains have separated. A bond that a script has erased does not stay; E erased bonds and their R
+    points are stored separately.
+
+    Example:
+        >>> state = flexpm.build(specimen).snapshot()
+        >>> len(state.grain_areas), f"{state.grain_areas.sum():.6f}"
+        (37, '0.000288')
     """
 
     positions: FloatArray  #: of the nodes, (N, 2) [m]
@@ -78,7 +83,7 @@ class Snapshot:
 
     @cached_property
     def fragments(self) -> Fragments:
-        """What hangs together: grains between which a point is not fully damaged."""
+        """Sets of connected grains: a connection has a contact point that is not fully damaged."""
         bonded = self.any_of(self.point_damage < 1.0)
         return connected(self.contact_grains, bonded, self.grain_areas)
 
@@ -90,7 +95,7 @@ class Snapshot:
 
     @property
     def grain_stress(self) -> FloatArray:
-        """Mean stress of each grain, xx, yy, xy, (G, 3) [Pa]; nan of one that is erased."""
+        """Mean stress of each grain, xx, yy, xy, (G, 3) [Pa]; nan for an erased grain."""
         owners = self.triangle_grain[:, None]
         count = int(np.max(self.triangle_grain, initial=-1)) + 1
         return means_by(self.triangle_stress, triangle_areas(self), owners, count)
@@ -98,20 +103,25 @@ class Snapshot:
     def stress_at(
         self, points: Sequence[Sequence[float]] | FloatArray, *, moved: bool = False
     ) -> PointStress:
-        """Stresses at points of the specimen.
+        """Return the stresses at points of the specimen.
 
-        Deformable grains have the stress of the triangle that a point lies in. Rigid grains and
-        spheres have none inside: theirs is the mean that the forces on a grain give it, and
-        ``source`` of what comes back says so. A point outside, in a hole or where a grain is
-        erased has nan; ``missing`` counts them.
+        Points in deformable grains have the stress of their triangle. Rigid grains and spheres have
+        no inner stress: their points have the mean stress from the forces on the grain, and
+        ``source`` of the result names the source. A point outside, in a hole or in an erased grain
+        has nan; ``missing`` counts such points.
 
         Args:
             points: Rows of x and y, or one point [m].
-            moved: Points are present places; else those that the grains had when bonded, where no
-                crack or overlap leaves a point between two grains or in both.
+            moved: Whether points are present positions. Else they are positions in the bonded
+                state, where no crack or overlap leaves a point between two grains or in both.
 
         Raises:
-            InputError: for what are no points.
+            InputError: for a value that is not an array of points.
+
+        Example:
+            >>> state = flexpm.build(specimen).snapshot()
+            >>> state.stress_at([(0.006, 0.012), (1.0, 1.0)]).missing
+            1
         """
         places = self.positions if require_flag("stress_at: moved", moved) else self.reference
         asked = require_points("stress_at: points", points)
@@ -126,16 +136,16 @@ class Snapshot:
         *,
         moved: bool = False,
     ) -> PointStress:
-        """Stresses at even distances along a straight line, see `stress_at`.
+        """Return the stresses at equal distances along a straight line, see `stress_at`.
 
         Args:
-            first: x and y of its first point [m].
-            last: x and y of its last point [m].
-            count: Number of points, both ends among them.
+            first: x and y of the first point [m].
+            last: x and y of the last point [m].
+            count: Number of points, including both ends.
             moved: As for `stress_at`.
 
         Raises:
-            InputError: for what are no points, or fewer than two.
+            InputError: for a value that is not a point, or fewer than two points.
         """
         ends = [
             require_points(f"stress_along: {name}", one)[0]
@@ -148,21 +158,21 @@ class Snapshot:
 
     @property
     def cuts(self) -> IntArray:
-        """Contacts that are open without having cracked, their rows: notches, before a test.
+        """Indices of contacts that are open without a crack: notches, before a test.
 
-        Later on grains that have come to touch are such contacts, too.
+        Later, grains that have come into contact also have such contacts.
         """
         return np.flatnonzero(~self.any_of((self.point_damage < 1.0) | (self.crack_mode != 0)))
 
     def any_of(self, chosen: BoolArray) -> BoolArray:
-        """Whether any point of each contact is among those chosen (P,); (C,)."""
+        """Return for each contact (C,) whether any of its points is chosen (P,)."""
         found: BoolArray = np.zeros(len(self.contact), dtype=bool)
         found[self.point_contact[chosen]] = True
         return found
 
     @property
     def point_segments(self) -> FloatArray:
-        """Part of its contact that each point stands for, from start to end, (P, 2, 2) [m]."""
+        """Tributary segment of each point on its contact, from start to end, (P, 2, 2) [m]."""
         ends = self.contact_ends[self.point_contact]
         before = np.concatenate([[0.0], np.cumsum(self.point_share)])
         first = np.flatnonzero(self.point_number == 0)
@@ -173,18 +183,18 @@ class Snapshot:
 
     @property
     def point_number(self) -> IntArray:
-        """Number of each point in its contact, from 0, (P,)."""
+        """Index of each point in its contact, from 0, (P,)."""
         return numbers_within(self.point_contact)
 
 
 def numbers_within(owners: IntArray) -> IntArray:
-    """Number of each row among those of the same owner, which follow each other, from 0."""
+    """Return the index of each row among the consecutive rows of the same owner, from 0."""
     first = np.flatnonzero(np.diff(owners, prepend=-1))
     return np.arange(len(owners)) - np.repeat(first, np.diff(first, append=len(owners)))
 
 
 def triangle_areas(snapshot: Snapshot) -> FloatArray:
-    """Undeformed area of each triangle, (M,) [m2]."""
+    """Return the undeformed area of each triangle, (M,) [m2]."""
     corners = snapshot.reference[snapshot.triangles]
     (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
     areas: FloatArray = 0.5 * (ax * by - ay * bx)

@@ -9,7 +9,7 @@ and Hoek-Brown of intact rock (s = 1, a = 1/2),
 
     sigma_1 = sigma_3 + sqrt(m_i sigma_ci sigma_3 + sigma_ci^2).
 
-Errors are standard errors of the fit; they say how well the criterion describes the peaks.
+Errors are standard errors of the fit: they measure how well the criterion describes the peaks.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ Criterion = TypeVar("Criterion", "MohrCoulomb", "HoekBrown")
 
 @dataclass(frozen=True)
 class MohrCoulomb:
-    """Line through peaks; errors are None for two peaks, which leave nothing to judge by."""
+    """Line through peaks; errors are None for two peaks, which leave no residual."""
 
     cohesion: float  #: c [Pa]
     friction_angle: float  #: phi [degree]
@@ -39,17 +39,17 @@ class MohrCoulomb:
 
     @property
     def slope(self) -> float:
-        """k, growth of the strength with the confinement [-]."""
+        """k, increase of the strength per confining pressure [-]."""
         sine = math.sin(math.radians(self.friction_angle))
         return (1.0 + sine) / (1.0 - sine)
 
     @property
     def uniaxial_strength(self) -> float:
-        """q, strength of the line at no confinement [Pa]."""
+        """q, strength of the line without confining pressure [Pa]."""
         return 2.0 * self.cohesion * math.sqrt(self.slope)
 
     def strength(self, confinement: FloatArray | float) -> FloatArray | float:
-        """Axial stress at failure [Pa] under a confinement [Pa]."""
+        """Return the axial stress at failure [Pa] under a confining pressure [Pa]."""
         return self.uniaxial_strength + self.slope * confinement
 
 
@@ -63,13 +63,13 @@ class HoekBrown:
     m_i_error: float | None = None  #: [-]
 
     def strength(self, confinement: FloatArray | float) -> FloatArray | float:
-        """Axial stress at failure [Pa] under a confinement [Pa]."""
+        """Return the axial stress at failure [Pa] under a confining pressure [Pa]."""
         return _hoek_brown(confinement, self.sigma_ci, self.m_i)
 
 
 @dataclass
 class Envelope:
-    """Strength criteria of a model from its peaks under several confinements."""
+    """Strength criteria of a model from its peaks under several confining pressures."""
 
     model: str
     confinements: list[float]  #: [Pa]
@@ -79,16 +79,16 @@ class Envelope:
 
     @classmethod
     def of(cls, model: str, confinements: list[float], peaks: list[float]) -> Envelope:
-        """Fit both criteria to peaks [Pa] at confinements [Pa]; None for one that fails."""
+        """Fit both criteria to peaks [Pa] at confining pressures [Pa]; None if a fit fails."""
         line = _fit(mohr_coulomb, confinements, peaks)
         return cls(model, confinements, peaks, line, _fit(hoek_brown, confinements, peaks))
 
     def as_dict(self) -> dict[str, str | float | None]:
-        """A row of envelope.csv."""
+        """Return a row of envelope.csv."""
         return {"model": self.model, "tests": len(self.peaks), **self.constants()}
 
     def constants(self) -> dict[str, float | None]:
-        """Constants of both criteria and their errors, by name; None for one that failed."""
+        """Return the constants of both criteria and their errors, by name; None if a fit failed."""
         found: dict[str, float | None] = {}
         for name in ("cohesion", "friction_angle"):
             found[name] = getattr(self.mohr_coulomb, name, None)
@@ -100,16 +100,24 @@ class Envelope:
 
 
 def mohr_coulomb(confinements: Sequence[float], peaks: Sequence[float]) -> MohrCoulomb:
-    """Cohesion and friction angle by linear regression of peaks over confinements.
+    """Fit cohesion and friction angle by linear regression of peaks on confining pressures.
 
     The errors of c and phi follow from the covariance of intercept and slope to first order.
 
     Args:
-        confinements: sigma_3 of each test [Pa], >= 0, at least two different ones.
+        confinements: sigma_3 of each test [Pa], >= 0, at least two different values.
         peaks: Largest axial stress of each test, sigma_1 [Pa].
 
+    Returns:
+        The line, with cohesion [Pa] and friction angle [degree].
+
     Raises:
-        InputError: for too few or wrong values, or no rise from a positive strength.
+        InputError: for too few or wrong values, or unless the line rises from a positive strength.
+
+    Example:
+        >>> line = flexpm.strength.mohr_coulomb([0.0, 10e6, 20e6], [100e6, 140e6, 180e6])
+        >>> round(line.slope, 3), round(line.uniaxial_strength / 1e6, 3)
+        (4.0, 100.0)
     """
     x, y = _checked("mohr_coulomb", confinements, peaks)
     line = stats.linregress(x, y)
@@ -134,14 +142,23 @@ def mohr_coulomb(confinements: Sequence[float], peaks: Sequence[float]) -> MohrC
 
 
 def hoek_brown(confinements: Sequence[float], peaks: Sequence[float]) -> HoekBrown:
-    """sigma_ci and m_i of intact rock by least squares on the peaks.
+    """Fit sigma_ci and m_i of intact rock by least squares on the peaks.
 
     Args:
-        confinements: sigma_3 of each test [Pa], >= 0, at least two different ones.
+        confinements: sigma_3 of each test [Pa], >= 0, at least two different values.
         peaks: Largest axial stress of each test, sigma_1 [Pa].
 
+    Returns:
+        The curve, with sigma_ci [Pa] and m_i [-].
+
     Raises:
-        InputError: for too few or wrong values, or peaks that do not rise with the confinement.
+        InputError: for too few or wrong values, or peaks that do not rise with the confining
+            pressure.
+
+    Example:
+        >>> curve = flexpm.strength.hoek_brown([0.0, 10e6, 20e6], [100e6, 170e6, 222e6])
+        >>> 95e6 < curve.strength(0.0) < 105e6
+        True
     """
     x, y = _checked("hoek_brown", confinements, peaks)
     scale = float(np.max(y))
@@ -173,7 +190,7 @@ def hoek_brown(confinements: Sequence[float], peaks: Sequence[float]) -> HoekBro
 
 
 def tensile_ratio(direct: float | None, indirect: float | None) -> float | None:
-    """Strength in direct tension over that of the Brazilian test [-]; None without one of them."""
+    """Return the ratio of direct to Brazilian tensile strength [-]; None if either is missing."""
     return direct / indirect if direct is not None and indirect else None
 
 
@@ -182,7 +199,7 @@ def _fit(
     confinements: Sequence[float],
     peaks: Sequence[float],
 ) -> Criterion | None:
-    """None for peaks that a criterion cannot describe."""
+    """Fit a criterion; None for peaks that it cannot describe."""
     try:
         return criterion(confinements, peaks)
     except InputError:

@@ -58,15 +58,23 @@ def write_vtu(
     snapshot: AnySnapshot,
     about: Mapping[str, object] | None = None,
 ) -> None:
-    """Write `snapshot` as one VTK unstructured grid, whole or not at all.
+    """Write `snapshot` as one VTK unstructured grid, completely or not at all.
 
     Args:
         path: Name of the file, ending in .vtu.
-        snapshot: The state.
-        about: Field data: what the state is of, by name; numbers and texts, None is left out.
+        snapshot: The state, 2D or 3D.
+        about: Field data that describe the state, by name; numbers and texts, None is left out.
 
     Raises:
-        InputError: for what is no state, as the plain arrays of ``solver.snapshot()``.
+        InputError: for a value that is not a state, such as the plain arrays of
+            ``solver.snapshot()``.
+
+    Example:
+        >>> import tempfile
+        >>> path = tempfile.mkdtemp() + "/state.vtu"
+        >>> flexpm.export.write_vtu(path, flexpm.build(specimen).snapshot())
+        >>> len(flexpm.export.read_vtu(path).grain_areas)
+        37
     """
     if isinstance(snapshot, SolidSnapshot):
         write_solid_state(path, snapshot, about)
@@ -90,18 +98,18 @@ def write_vtu(
 
 
 def read_vtu(path: Path | str) -> Snapshot:
-    """Read the state that ``write_vtu`` has written; where points cracked is not in it.
+    """Read the state that ``write_vtu`` has written, without the positions of cracks.
 
-    Of a solid it is the section through its middle, see ``read_state``.
+    A 3D file returns the section through its middle, see ``read_state``.
 
     Raises:
-        InputError: if the file cannot be read or is no such file.
+        InputError: if the file cannot be read or has no state of flexpm.
     """
     return read_state(path).drawn
 
 
 def read_state(path: Path | str) -> AnySnapshot:
-    """The same, of a solid its whole state; points of a contact are alike there.
+    """Read the complete state that ``write_vtu`` has written; 3D: points of a contact are equal.
 
     Raises:
         InputError: as for ``read_vtu``.
@@ -119,7 +127,7 @@ def read_state(path: Path | str) -> AnySnapshot:
 
 
 def _snapshot_of(grid: Grid) -> Snapshot:
-    """State of a grid.
+    """Return the state of a grid.
 
     Raises:
         ValueError, LookupError: if it has no grains of flexpm.
@@ -165,7 +173,7 @@ def _snapshot_of(grid: Grid) -> Snapshot:
 
 
 def _require_grid(cells: Arrays, places: FloatArray, corners: IntArray, count: int) -> None:
-    """Refuse numbers of nodes and grains that are none, of a file that was changed."""
+    """Reject invalid indices of nodes and grains, in a file that was changed."""
     kinds, contacts = cells["kind"], len(cells["kind"]) - count
     nodes, grains = len(places) - 2 * contacts, int(np.max(cells["grain"], initial=-1)) + 1
     whole = np.array_equal(kinds, np.repeat([GRAIN, CONTACT], [count, contacts]))
@@ -182,7 +190,7 @@ def _require_grid(cells: Arrays, places: FloatArray, corners: IntArray, count: i
 
 
 def _points_of(cells: Arrays) -> int:
-    """Points of each contact, of which all have as many in the plane."""
+    """Return the number of points of a contact, which is equal for all contacts in 2D."""
     return int(np.prod(cells["point_damage"].shape[1:], dtype=int))
 
 
@@ -191,9 +199,9 @@ def _are_numbers(values: IntArray, count: int) -> bool:
 
 
 def point_arrays(snapshot: Snapshot) -> dict[str, Named]:
-    """Arrays over points: the N nodes, then the two ends of each contact.
+    """Return the arrays over points: the N nodes, then the two ends of each contact.
 
-    An end of a contact moves with the node that is nearest to it.
+    An end of a contact moves with the nearest node.
     """
     nearest = _nearest_nodes(snapshot)
     displacement = snapshot.positions - snapshot.reference
@@ -241,18 +249,18 @@ def _tensors(snapshot: Snapshot) -> FloatArray:
 
 
 def _mean_by(snapshot: Snapshot, owners: IntArray, count: int) -> FloatArray:
-    """Mean stress of the triangles of each owner, weighted by their areas, (count, 6) [Pa].
+    """Return the mean stress of the triangles of each owner, weighted by area, (count, 6) [Pa].
 
     Args:
         snapshot: The state.
-        owners: Numbers of those that each triangle belongs to, (M, K).
-        count: Number of owners; one without a triangle gets nan.
+        owners: Indices of the owners of each triangle, (M, K).
+        count: Number of owners; an owner without a triangle gets nan.
     """
     return means_by(_tensors(snapshot), triangle_areas(snapshot), owners, count)
 
 
 def _minerals(snapshot: Snapshot) -> IntArray:
-    """Mineral of each grain; 0 if all grains are alike."""
+    """Return the mineral of each grain; 0 without minerals."""
     if snapshot.grain_mineral is not None:
         return snapshot.grain_mineral
     return np.zeros(int(np.max(snapshot.triangle_grain, initial=-1)) + 1, dtype=int)
@@ -319,7 +327,7 @@ def _set_geometry(grid: vtkUnstructuredGrid, snapshot: Snapshot) -> None:
 
 
 def _nearest_nodes(snapshot: Snapshot) -> IntArray:
-    """Node nearest to each end of each contact; the first for an end that is nowhere."""
+    """Return the node nearest to each end of each contact; the first node for an end of nan."""
     ends = snapshot.contact_ends.reshape(-1, 2)
     found = np.zeros(len(ends), dtype=int)
     # numbers of a run that has diverged may be not finite, or too large to be squared

@@ -30,9 +30,15 @@ class PolarStress(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class PointStress:
-    """Stresses at n points, nan where there is no grain: outside, in a hole, where one is erased.
+    """Stresses at n points, nan without a grain: outside, in a hole, in an erased grain.
 
-    A point that several triangles share, on their edge, has the mean of them.
+    A point on an edge of several triangles has their mean stress.
+
+    Example:
+        >>> state = flexpm.build(specimen).snapshot()
+        >>> found = state.stress_along((0.006, 0.004), (0.006, 0.02), count=5)
+        >>> found.yy.tolist()  # nothing loads the specimen yet
+        [0.0, 0.0, 0.0, 0.0, 0.0]
     """
 
     points: FloatArray  #: (n, 2) [m]
@@ -47,7 +53,7 @@ class PointStress:
 
     @property
     def missing(self) -> int:
-        """Number of points that lie in no grain."""
+        """Number of points that are in no grain."""
         return int(np.count_nonzero(np.isnan(self.stress[:, 0])))
 
     @property
@@ -67,14 +73,14 @@ class PointStress:
 
     @property
     def distance(self) -> FloatArray:
-        """Distance of each point from the first one, (n,) [m]: the way along a line."""
+        """Distance of each point from the first point, (n,) [m]."""
         x, y = (self.points - self.points[:1]).T
         distance: FloatArray = np.hypot(x, y)
         return distance
 
     @property
     def principal(self) -> tuple[FloatArray, FloatArray]:
-        """Larger and smaller principal stress of the plane, (n,) each [Pa]."""
+        """Larger and smaller in-plane principal stress, (n,) each [Pa]."""
         return principal_stresses(self.stress)
 
     @property
@@ -84,13 +90,13 @@ class PointStress:
         return angle
 
     def polar(self, about: Sequence[float]) -> PolarStress:
-        """Radial, hoop and shear stress about a point.
+        """Return radial, hoop and shear stress about a point.
 
         Args:
             about: x and y of the point [m].
 
         Raises:
-            InputError: for what is no point.
+            InputError: for a value that is not a point.
         """
         x, y = (self.points - require_points("polar: about", about)[0]).T
         angle = np.where(np.hypot(x, y) > 0.0, np.arctan2(y, x), np.nan)
@@ -100,13 +106,13 @@ class PointStress:
 def stress_of_points(
     corners: FloatArray, stress: FloatArray, points: FloatArray, source: str
 ) -> PointStress:
-    """Stresses at points in triangles.
+    """Return the stresses at points in triangles.
 
     Args:
-        corners: Places of each triangle, counter-clockwise, (M, 3, 2) [m].
-        stress: xx, yy, xy of each, (M, 3) [Pa].
-        points: (n, 2) [m].
-        source: What the stress is.
+        corners: Corners of each triangle, counter-clockwise, (M, 3, 2) [m].
+        stress: xx, yy, xy of each triangle, (M, 3) [Pa].
+        points: Positions, (n, 2) [m].
+        source: Source of the stress.
     """
     point, triangle = triangles_at(corners, points)
     total, count = np.zeros((len(points), 3)), np.zeros(len(points))
