@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rig that fits a specimen."""
+"""Selection of the rig that fits a specimen."""
 
 from __future__ import annotations
 
@@ -41,19 +41,20 @@ def rig(
     runner: Runner | None = None,
     **leaves: Unpack[Leaves],
 ) -> TestRig:
-    """Put a built specimen into a rig, to write a test with.
+    """Put a built specimen into the rig of a standard test, to write a custom test.
 
     Args:
-        built: A rectangle, which is compressed or pulled between its bottom and top, or a disc,
-            which is compressed between two plates; or a solid, between its ends along z.
-        tension: Pull instead of press; no disc.
-        runner: Steps, shows progress and saves checkpoints; None for one that only steps.
-        leaves: What the test leaves, by these names:
+        built: A rectangle, which is compressed or pulled between its bottom and top; a disc, which
+            is compressed between two plates; or a 3D specimen, between its ends along z.
+        tension: Pull instead of press; not for a disc.
+        runner: Object that steps, shows progress and saves checkpoints; None: it only steps.
+        leaves: Output of the test, by these names:
 
-            - ``out``: folder for its files, which grow while it runs. The same script started again
-              goes on from there, to the same bits; None, the default, writes nothing.
-            - ``frames``, ``film``: states on the way and a film of them, as for ``flexpm.run``.
-            - ``report``: write report.html, too, at the end; default True.
+            - ``out``: folder of the files, which grow during the run. If the same script is started
+              again, it resumes from there and reaches the same bits. None, the default, writes no
+              files.
+            - ``frames``, ``film``: intermediate states and a film of them, as for ``flexpm.run``.
+            - ``report``: also write report.html at the end. Default: True.
             - ``checkpoint_interval``: wall time between two checkpoints [s], > 0.
 
     Returns:
@@ -61,8 +62,14 @@ def rig(
         and for discs, of plates or grips for YADE's bonded spheres.
 
     Raises:
-        InputError: for a specimen of another outline, or a folder that holds something else.
+        InputError: for a specimen of another outline, or a folder with other content.
         BusyError: if another process uses the folder.
+
+    Example:
+        >>> rig = flexpm.rig(flexpm.build(specimen))
+        >>> rig.strain_to(2e-4, rate=6.0)
+        >>> print(f"{rig.stress / 1e6:.1f} MPa at a strain of {rig.strain:.1e}")
+        5.2 MPa at a strain of 2.1e-04
     """
     if built.specimen.kind not in _HELD:
         other = "no rig holds" if is_solid(built.specimen.kind) else "flexpm.PartRig holds"

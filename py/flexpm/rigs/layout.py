@@ -39,7 +39,7 @@ Answer = TypeVar("Answer")
 
 
 class PartLayout:
-    """Base of a rig that lays parts on its specimen.
+    """Base of a rig that adds parts to its specimen.
 
     Attributes:
         built: The specimen and its model.
@@ -51,7 +51,7 @@ class PartLayout:
     _axes = PLANE
 
     def _begin_layout(self) -> None:
-        """See which parts the scene has already: the calls of its script find them again."""
+        """Find the parts that the scene already has: the calls of its script return them again."""
         self._solver = self.built.solver
         self._found: dict[type[RigPart], set[int]] = {
             Part: set(range(len(self._solver.plates()))),
@@ -117,17 +117,27 @@ class PartLayout:
         strip: float | None = None,
         seated: bool = False,
     ) -> Part:
-        """Lay a plate along a whole side of the outline.
+        """Add a plate along an entire side of the outline.
 
         Args:
-            side: Number of the side; of a rectangle 0 bottom, 1 right, 2 top, 3 left.
-            friction: Coefficient [-].
-            bonded: It pulls, too. It slides freely along itself all the same, without friction.
+            side: Index of the side; of a rectangle 0 bottom, 1 right, 2 top, 3 left.
+            friction: Friction coefficient [-].
+            bonded: Also transmit tension. A bonded plate without friction slides freely along
+                itself.
             strip: As for `support` [Pa/m].
             seated: As for `support`.
 
+        Returns:
+            The plate.
+
         Raises:
-            InputError: for a side that there is not, or on which another part lies.
+            InputError: for a side that does not exist, or on which another part is.
+
+        Example:
+            >>> rig = flexpm.PartRig(flexpm.build(specimen))
+            >>> top = rig.platen(2)
+            >>> print(f"width {top.width * 1e3:.0f} mm, normal {top.normal[1]:.0f}")
+            width 12 mm, normal -1
         """
         side = require_whole("platen: side", side)
         friction = require_number("platen: friction", friction, NOT_NEGATIVE)
@@ -188,7 +198,7 @@ class PartLayout:
         )
 
     def _disc(self) -> tuple[tuple[float, float], float]:
-        """Centre and radius of the disc that the specimen is [m]."""
+        """Return centre and radius [m] of the specimen, which must be a disc."""
         outline = self.built.specimen.outline
         if not isinstance(outline, Circle):
             raise InputError("jaw: specimen = no disc, must be one; lay supports")
@@ -248,7 +258,7 @@ class PartLayout:
         lay: Callable[[], int],
         requested: Sequence[float] | None = None,
     ) -> Part:
-        """A plate: laid now, or found in a scene that is taken up again."""
+        """Return a new plate, or the same plate in a scene that was loaded."""
         self._require_scene(kind)
         if self._found[Part]:
             number = self._take(Part, kind, self._asked(kind, find))
@@ -312,11 +322,11 @@ class PartLayout:
 
     @property
     def _begun(self) -> bool:
-        """Whether the record has begun, here or in the scene that was taken up."""
+        """Whether the record has begun, here or in the scene that was loaded."""
         return self.built.engine(wrapper.AxialRecorder) is not None
 
     def _require_scene(self, what: str) -> None:
-        """Refuse to go on in another scene than that of the rig."""
+        """Raise an error unless the scene is the scene of the rig."""
         if self.built.solver is not self._solver or self._solver not in yade.O.engines:
             raise InputError(
                 f"{what}: scene = another one than that of the rig, must be the same; after "
@@ -325,7 +335,7 @@ class PartLayout:
 
 
 def _require_axes(axes: object, there: str) -> str:
-    """Axes that are held, in their order, or raise InputError; None: all that there are."""
+    """Return the fixed axes in their order, or raise InputError; None: all axes."""
     if axes is None:
         return there
     if isinstance(axes, str) and axes and axes == "".join(one for one in there if one in axes):
@@ -335,12 +345,12 @@ def _require_axes(axes: object, there: str) -> str:
 
 
 def strip_of(label: str, strip: float | None) -> float:
-    """Stiffness per area of a soft layer [Pa/m]; 0: there is none."""
+    """Return the stiffness per area of a soft layer [Pa/m]; 0: no layer."""
     return 0.0 if strip is None else require_number(f"{label}: strip", strip, POSITIVE, "Pa/m")
 
 
 def _face_of(plate: Table) -> list[list[float]]:
-    """Line along a plate, or the arc of a jaw, when bonded [m]."""
+    """Return the line along a plate, or the arc of a jaw, when bonded [m]."""
     inwards, radius, half = np.array(plate["normal"]), plate["radius"], 0.5 * plate["width"]
     along = np.array([inwards[1], -inwards[0]])
     at = half * np.linspace(-1.0, 1.0, 25 if radius else 2)
@@ -360,6 +370,6 @@ def _box_around(places: FloatArray) -> list[list[float]]:
 
 
 def before(part: Table) -> list[float]:
-    """Where a part was before it was displaced [m]."""
+    """Return the position of a part before it was displaced [m]."""
     found: list[float] = np.subtract(part["place"], part["displacement"]).tolist()
     return found

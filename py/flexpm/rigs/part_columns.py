@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Columns of the record that a rig of parts has beside the usual ones: gauges, ways, names. SI."""
+"""Additional columns of the record of a rig of parts: gauges, displacements, names. SI units."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _TRAITS = ("first", "second", "plate", "nodes", "direction", "length")
 
 
 class PartColumns(PartLayout):
-    """Base of a rig of parts that records what its test wants to see."""
+    """Base of a rig of parts that records additional quantities."""
 
     _same: dict[str, str]
 
@@ -33,16 +33,25 @@ class PartColumns(PartLayout):
         along: Place | None = None,
         strain: bool = False,
     ) -> None:
-        """Record how far two points move apart, in a column of this name.
+        """Record the relative displacement of two points, in a column of this name.
 
         Args:
             name: Name of the column.
-            first: x, y and in space z of a point; the nearest node of the grains on its side is
-                taken [m].
-            second: The other one.
-            along: Direction in which the second one moves away from the first one;
-                None for that from the first to the second place.
-            strain: Record the strain between them [-] instead of the opening [m].
+            first: x, y, in 3D also z, of a point; the gauge takes the nearest node of the grains on
+                its side [m].
+            second: The second point, as `first`.
+            along: Direction in which an opening moves the second point away from the first point;
+                None: the direction from the first to the second point.
+            strain: Record the strain between the points [-] instead of the opening [m].
+
+        Raises:
+            InputError: for a name that is taken, or a strain between equal points.
+
+        Example:
+            >>> rig = flexpm.PartRig(flexpm.build(specimen))
+            >>> rig.gauge("widening", (0.0, 0.012), (0.012, 0.012))
+            >>> rig.reading("widening")  # [m], nothing has moved yet
+            0.0
         """
         label = f"gauge {self._gauge_name(name)}"
         one, two = (
@@ -91,9 +100,9 @@ class PartColumns(PartLayout):
         self._add_gauge(name, wrapper.Gauge(plate=jaw.number, reads="contact_angle"))
 
     def rotation_of(self, name: str, part: Part) -> None:
-        """Record the angle of a seated part, see `Part.angle` [rad], in a column of this name.
+        """Record the rotation of a seated part, see `Part.angle` [rad], in a column of this name.
 
-        In space that is its size.
+        In 3D the column has the magnitude of the rotation.
         """
         label = f"gauge {self._gauge_name(name)}"
         part = require_part(f"{label}: part", self, part, Part)
@@ -120,16 +129,16 @@ class PartColumns(PartLayout):
             one.name = name
 
     def reading(self, name: str) -> float:
-        """Return what a gauge reads in the present state, in the unit of its column.
+        """Return the present reading of a gauge, in the unit of its column.
 
-        It works before the record begins, as after `settle` or `press`, and counts then from where
-        the grains were bonded; later from where the record counts.
+        It works before the record begins, for example after `settle` or `press`, and then counts
+        from the bonded state. Later it counts from the same state as the record.
 
         Args:
             name: Name of the gauge.
 
         Raises:
-            InputError: for an unknown gauge, or one of an erased grain.
+            InputError: for an unknown gauge, or a gauge on an erased grain.
         """
         self._require_scene("reading")
         names = [one.name for one in self._recorder.gauges]
@@ -150,7 +159,7 @@ class PartColumns(PartLayout):
 
     @property
     def gauges(self) -> list[Table]:
-        """All gauges as plain values: nodes, or the part whose way it is, and the direction."""
+        """All gauges as plain values: nodes, or the part that is recorded, and the direction."""
         found = []
         for one in self._recorder.gauges:
             traits = {name: getattr(one, name) for name in _TRAITS}
@@ -160,12 +169,12 @@ class PartColumns(PartLayout):
         return found
 
     def _columns(self) -> tuple[str, ...]:
-        """All that a name of a column may not be, and that may have a second name."""
+        """Names that no new column may have, and that may have an alias."""
         names = (*COLUMNS, *self._recorder.names, "load", "displacement", *self._same)
         return tuple(name for name in dict.fromkeys(names) if name != "initial_energy")
 
     def _gauge_name(self, name: object) -> str:
-        """Name that a new gauge may have, or that of one in a record that has begun."""
+        """Return a name that a new gauge may have, or the name of a gauge of a begun record."""
         there = [one.name for one in self._recorder.gauges]
         if self._begun and isinstance(name, str) and name in there:
             return name

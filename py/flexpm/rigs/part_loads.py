@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which parts of a rig load the specimen, and what its load and strain are then. SI units."""
+"""Selection of the parts that load the specimen, and definition of load and strain. SI units."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _ALONG = 1e-6
 
 
 class PartLoads(PartLayout):
-    """Base of a rig of parts that says which of them move the specimen, and which hold it."""
+    """Base of a rig of parts that selects driven parts and reacting parts."""
 
     def drive(
         self,
@@ -123,7 +123,7 @@ class PartLoads(PartLayout):
         axis: Vector,
         sizes: Mapping[str, float],
     ) -> None:
-        """Turn sets about an axis, the second ones the other way."""
+        """Rotate sets about an axis, the second sets in the opposite sense."""
         sets = require_parts("rotate: part", self, parts[0], HeldNodes)
         others = require_parts("rotate: part back", self, parts[1], HeldNodes)
         if not sets:
@@ -148,7 +148,7 @@ class PartLoads(PartLayout):
 
     @property
     def drives(self) -> Table:
-        """Which parts load and hold, by their numbers, and what stress and strain are then."""
+        """Driven and reacting parts by index, and the definition of stress and strain."""
         frame = self._frame
         return {
             "driven": {"plates": frame.driven, "held nodes": frame.drivenSets},
@@ -163,7 +163,7 @@ class PartLoads(PartLayout):
 
     @property
     def _turns(self) -> bool:
-        """Whether parts are turned, so that the load is a moment."""
+        """Whether parts are rotated, so that the load is a moment."""
         return self._frame.direction[2] != 0.0
 
     @property
@@ -175,7 +175,7 @@ class PartLoads(PartLayout):
     def _soften(
         self, moved: Sequence[RigPart], unit: tuple[float, float, float], soft: float | None
     ) -> None:
-        """Lay the machine's spring behind the part that loads, or find it there again."""
+        """Add the machine's spring behind the driven part, or find the spring of a loaded scene."""
         plates = self.built.solver.plates()
         behind = [n for n, one in enumerate(plates) if one["machine"]]
         if set(behind) - set(numbers(moved, Part)):
@@ -200,14 +200,14 @@ class PartLoads(PartLayout):
 
     @abstractmethod
     def _watch_machine(self, plate: int, unit: tuple[float, float, float]) -> None:
-        """Give the record the columns of a machine."""
+        """Add the columns of a machine to the record."""
 
     def _new_frame(self) -> wrapper.PartFrame:
         return wrapper.PartFrame()
 
     @property
     def _frame(self) -> wrapper.PartFrame:
-        """What tells the record which parts hold and load, and along which direction."""
+        """Frame from which the record takes reacting parts, driven parts and the direction."""
         frame = self._recorder.frame
         if not isinstance(frame, wrapper.PartFrame):
             raise InputError(
@@ -217,7 +217,7 @@ class PartLoads(PartLayout):
         return frame
 
     def _load_by(self, call: str, **asked: object) -> None:
-        """Give the record's frame what loads, or compare it with what the record has begun with."""
+        """Set the load in the record's frame, or compare it with the first load of the record."""
         self._require_scene(call)
         frame = self._frame
         for name, value in asked.items():
@@ -233,12 +233,12 @@ class PartLoads(PartLayout):
                 setattr(frame, name, value)
 
     def _require_driven(self, stage: str) -> None:
-        """Raise InputError, which begins with `stage`, unless any part loads."""
+        """Raise InputError with `stage` as its first word unless a part is driven."""
         if not (self._frame.driven or self._frame.drivenSets):
             raise InputError(f"{stage} driven parts = none, must be at least 1; call drive or turn")
 
     def _require_fixed(self, call: str, free: Sequence[RigPart] = ()) -> None:
-        """Refuse other loads once a set is free to move as it turns, for it holds nothing then."""
+        """Reject other loads while a rotating set is free to translate: it fixes nothing then."""
         sets = self.built.solver.nodeSets()
         floating = {number for number, one in enumerate(sets) if one["floats"]}
         if not self._begun and floating - {part.number for part in free}:
@@ -260,7 +260,7 @@ class PartLoads(PartLayout):
 def _require_soft(
     moved: Sequence[RigPart], unit: tuple[float, float, float], machine: float
 ) -> float:
-    """Stiffness of a machine that moves one plate along its normal, or refuse it [N/m]."""
+    """Return the stiffness of a machine [N/m], which must move one plate along its normal."""
     stiffness = require_number("drive: machine", machine, POSITIVE, "N/m")
     if len(moved) != 1 or not isinstance(moved[0], Part):
         raise InputError("drive: machine: parts = others than one plate, must be one plate alone")
@@ -275,7 +275,7 @@ def _require_soft(
 
 
 def _require_along(part: HeldNodes, direction: tuple[float, float, float]) -> None:
-    """Refuse nodes that are free along a part of the way on which they are to be driven."""
+    """Reject nodes that are free along a component of the direction of the load."""
     for axis, way in zip(SPACE, direction, strict=True):  # z of the plane is 0
         if way != 0.0 and axis not in part.axes:
             raise InputError(

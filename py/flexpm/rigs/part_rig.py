@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A rig of parts: supports, rollers, platens, held nodes and gauges, where a test wants them. SI.
+"""A rig of parts: supports, rollers, platens, fixed nodes and gauges at chosen positions. SI units.
 
-A part is a rigid plate against a part of the outline, of deformable and of rigid grains alike, or a
-set of nodes. A plate does not turn; it presses, pulls too if it is bonded, and resists sliding
-within its friction. Nodes are held, moved or turned as one, wherever they lie.
+A part is a rigid plate against a part of the outline, of deformable and of rigid grains, or a set
+of nodes. A plate does not rotate. It presses, also pulls if it is bonded, and resists sliding
+within its friction. Nodes are fixed, moved or rotated together, at any position.
 """
 
 from __future__ import annotations
@@ -38,12 +38,21 @@ _PUSHES = 1e-9
 @with_old_names
 @recording
 class PartRig(PartColumns, PartExcavation):
-    """A specimen of any outline between parts.
+    """A specimen of any outline, 2D or 3D, between parts.
 
-    Lay parts with `support` and `platen`, hold nodes with `hold`, read with `gauge` and
-    `displacement_of`, say with `drive` or `rotate` which parts load, and then `load` or
-    `strain_to`. In a run that is taken up from a checkpoint the same calls find what they have laid
-    before. Places and directions of a 3D specimen have a third component.
+    Add plates with `support` and `platen`, fix nodes with `hold`, and add gauges with `gauge`.
+    Select the parts that load the specimen with `drive`, and then call `load` or `strain_to`. In a
+    run that resumes from a checkpoint the same calls find the parts that they have added before.
+    Positions and directions of a 3D specimen have three components.
+
+    Example:
+        >>> rig = flexpm.PartRig(flexpm.build(specimen))
+        >>> low = rig.platen(0, friction=0.5)
+        >>> top = rig.platen(2)
+        >>> rig.drive(top, (0, -1), against=low, area=0.012 * 0.01, length=0.024)
+        >>> rig.strain_to(1e-4, rate=6.0)
+        >>> 1e6 < rig.stress < 5e6
+        True
     """
 
     built: Model
@@ -53,7 +62,7 @@ class PartRig(PartColumns, PartExcavation):
     _rig_of_solids: ClassVar[type[PartRig]]
 
     def __init_subclass__(cls) -> None:
-        """Note the class of a rig of solids."""
+        """Register the class of a 3D rig."""
         super().__init_subclass__()
         if cls._of_solids:
             PartRig._rig_of_solids = cls
@@ -75,15 +84,15 @@ class PartRig(PartColumns, PartExcavation):
         """Take grains that have just been built, or whose scene has been loaded.
 
         Args:
-            built: The specimen.
-            kind: Name of the test, whose loading rate is taken.
-            runner: Steps, shows progress and saves checkpoints; None for one that only steps.
-            leaves: What the test leaves, as for `flexpm.rig`: ``out``, ``frames``, ``film``,
+            built: The specimen and its model.
+            kind: Name of the test, whose loading rate is used.
+            runner: Object that steps, shows progress and saves checkpoints; None: it only steps.
+            leaves: Output of the test, as for `flexpm.rig`: ``out``, ``frames``, ``film``,
                 ``report``, ``checkpoint_interval``.
 
         Raises:
-            InputError: for a test that is not one of the model's; ``"own"`` is one of deformable
-                and of rigid grains; for a folder that holds something else.
+            InputError: for a test that the model does not have; ``"own"`` requires deformable or
+                rigid grains; for a folder with other content.
         """
         if is_solid(built.specimen.kind) != self._of_solids:
             raise InputError(
@@ -115,12 +124,12 @@ class PartRig(PartColumns, PartExcavation):
         return {"parts": self.parts, "drive": self.drives, "gauges": self.gauges}
 
     def scales(self) -> Scales:
-        """What the loading rate follows from: the elastic solution of the specimen before it.
+        """Return the quantities that determine the loading rate, from the elastic solution.
 
-        They are those that the first loading has found, whatever has broken since.
+        The first loading computes them; later damage does not change them.
 
         Raises:
-            InputError: where no part loads, nothing holds the specimen, or nothing resists.
+            InputError: if no part loads, no part fixes the specimen, or nothing resists the load.
         """
         self._require_driven("load:")
         if self._scales is None:
@@ -137,22 +146,22 @@ class PartRig(PartColumns, PartExcavation):
 
     @property
     def planned(self) -> bool:
-        """False for a record of prescribed motions alone, as of `follow` with real masses."""
+        """Whether loading rates apply; False for prescribed motions with real masses (`follow`)."""
         return self._scales is not None or bool(self._frame.loadingScales)
 
     @property
     def reference_strain(self) -> float:
-        """Strain at about which the specimen fails, or the largest of a prescribed history [-]."""
+        """Approximate strain at failure, or the largest strain of a prescribed history [-]."""
         if self._farthest and not self.planned:
             return self._farthest / self._frame.length
         return super().reference_strain
 
     @property
     def motion_energy(self) -> float:
-        """What has set the grains into the motion of the loading, at the last measured step [J].
+        """Energy supplied by the prescribed loading motion up to the last measured step [J].
 
-        The elastic start gives it, and the loading takes it back as it slows. The boundary work of
-        the record is the work of all parts and this, with the work of fluids.
+        The elastic start supplies it, and a loading that slows down removes it. The boundary work
+        of the record is the sum of this energy and of the work of all parts and fluids.
         """
         solver = self.built.solver
         parts, energies = (*solver.plates(), *solver.nodeSets()), solver.energies()
@@ -167,14 +176,14 @@ class PartRig(PartColumns, PartExcavation):
 
     @property
     def has_scale(self) -> bool:
-        """Before it is driven it has none, with real masses before it is loaded."""
+        """False until parts are driven; with real masses, False until the specimen is loaded."""
         if self.built.dynamic:
             return self.planned or self._farthest > 0.0
         return bool(self._frame.driven or self._frame.drivenSets)
 
     @property
     def may_fail_at_once(self) -> bool:
-        """A test of one's own may have few contacts across; a notch alone is no weak plane."""
+        """True: a custom test may have few contacts across; a notch alone is not a weak plane."""
         if self.kind == OWN.name:
             return True
         there = self.built.specimen.spec.joint_names or ()
@@ -182,19 +191,28 @@ class PartRig(PartColumns, PartExcavation):
 
     @property
     def confinement(self) -> float | None:
-        """None: what presses on a part is no confinement of the record."""
+        """None: a pressure on a part is not a confining pressure of the record."""
         return None
 
     def press(self, part: Part | Mapping[Part, float], pressure: float | None = None) -> None:
-        """Let parts move along their normals under pressures [Pa] until the forces balance.
+        """Move parts along their normals under pressures [Pa] until the forces are in equilibrium.
 
-        They go on to press. Displacements and gauges count from there on. Parts may be pressed one
-        after the other, each with its own pressure, or at once: ``press({top: 2e6, right: 1e6})``;
-        each then bears its pressure within 0.1 %.
+        The pressures stay. Displacements and gauges are counted from this state. Parts may be
+        pressed one after the other, each with its own pressure, or in one call:
+        ``press({top: 2e6, right: 1e6})``. Each part then carries its pressure within 0.1 %.
 
         Raises:
-            InputError: for what is no plate of this rig, or one that the loading drives already.
-            SimulationError: if the forces do not come to balance.
+            InputError: for a value that is not a plate of this rig, or a part that the loading
+                drives.
+            SimulationError: if the forces do not reach equilibrium.
+
+        Example:
+            >>> rig = flexpm.PartRig(flexpm.build(specimen))
+            >>> low = rig.platen(0, friction=0.5)
+            >>> top = rig.platen(2)
+            >>> rig.press(top, 1e6)
+            >>> print(f"{low.force[1]:.0f} N")
+            120 N
         """
         if isinstance(part, Mapping):
             if pressure is not None:
@@ -211,13 +229,13 @@ class PartRig(PartColumns, PartExcavation):
             self._press_all({part: value})
 
     def confine(self, pressure: float) -> None:
-        """Press on the part ``pressed`` until the forces balance, see `press`.
+        """Press on the part ``pressed`` until the forces are in equilibrium, see `press`.
 
         Args:
-            pressure: On the width of the part [Pa].
+            pressure: Pressure on the width of the part [Pa].
 
         Raises:
-            SimulationError: if no part is named, or if the forces do not come to balance.
+            SimulationError: if no part has this name, or if the forces do not reach equilibrium.
         """
         super().confine(pressure)
         self._scales = None  # joints that are closed now bear what they did not bear before
@@ -266,7 +284,7 @@ class PartRig(PartColumns, PartExcavation):
 
     @property
     def may_pull(self) -> bool:
-        """Whether what is driven can pull: held nodes and bonded plates."""
+        """Whether driven parts can pull: fixed nodes and bonded plates."""
         frame, plates = self._frame, self.built.solver.plates()
         return bool(frame.drivenSets) or all(plates[number]["bonded"] for number in frame.driven)
 
@@ -293,7 +311,7 @@ class PartRig(PartColumns, PartExcavation):
         super()._drive(plan)
 
     def _require_push(self, velocity: float) -> None:
-        """Refuse plates that all go away from the specimen, which nothing presses on them."""
+        """Reject plates that all move away from the specimen and are not pressed against it."""
         frame, plates = self._frame, self.built.solver.plates()
         if frame.drivenSets:
             return
@@ -338,7 +356,7 @@ class PartRig(PartColumns, PartExcavation):
         loading.velocityFactor = factor
 
     def _take_hold_again(self, stood: wrapper.LoadingController) -> wrapper.LoadingController:
-        """Begin anew along the elastic solution: the motion of a loading that has stood is over."""
+        """Restart along the elastic solution: the motion of a stopped loading is over."""
         self.built.remove_engines(stood)
         fresh = self._take_hold()
         fresh.undampedLoading = stood.undampedLoading

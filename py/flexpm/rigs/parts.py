@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts of a rig: plates and sets of nodes, each of one rig, which alone takes it. SI units."""
+"""Parts of a rig: plates and sets of nodes. A part belongs to one rig. SI units."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .places import PLANE, SPACE, Place, require_vector
 @with_old_names
 @dataclass(frozen=True, eq=False)
 class RigPart:
-    """What a rig has laid on its specimen. What it says is of the last step."""
+    """A part that a rig has added to its specimen. Its values belong to the last step."""
 
     _list: ClassVar[str]  # call of the solver that tells of all parts of this class
 
@@ -30,12 +30,12 @@ class RigPart:
 
     @property
     def force(self) -> tuple[float, ...]:
-        """On the specimen, x, y and in space z [N]."""
+        """Force on the specimen, x and y, in 3D also z [N]."""
         return self._vector("force")
 
     @property
     def work(self) -> float:
-        """Done on the specimen so far [J]."""
+        """Work done on the specimen up to the last step [J]."""
         return float(self._now["work"])
 
     @property
@@ -45,11 +45,11 @@ class RigPart:
 
     @property
     def displacement(self) -> tuple[float, ...]:
-        """Since it was laid, x, y and in space z [m]."""
+        """Displacement since the part was added, x and y, in 3D also z [m]."""
         return self._vector("displacement")
 
     def __str__(self) -> str:
-        """Its kind and place."""
+        """Type and position of the part."""
         return f"{self.kind} at {in_words(self.position)} m"
 
     @property
@@ -68,7 +68,7 @@ class RigPart:
         return tuple(float(one) for one in self._now[name])
 
     def _number(self, name: str) -> float:
-        """A trait that parts of the plane alone may have, or raise InputError."""
+        """Return a property that only 2D parts have, or raise InputError."""
         now = self._now
         if name not in now:
             raise InputError(f"part: {name} of {self}, has none in space")
@@ -86,36 +86,36 @@ class Part(RigPart):
 
     @property
     def width(self) -> float:
-        """Width of the outline before it, in the plane [m].
+        """Width of the outline that a 2D plate covers [m].
 
         Raises:
-            InputError: in space, where a plate has an area.
+            InputError: in 3D, where a plate has an area.
         """
         return self._number("width")
 
     @property
     def area(self) -> float:
-        """Area of the outside before it [m2]; 0 of a line."""
+        """Area of the surface that a plate covers [m2]; 0 for a line."""
         return float(self._now["area"])
 
     @property
     def normal(self) -> tuple[float, ...]:
-        """Into the specimen, a unit vector."""
+        """Unit vector into the specimen."""
         return self._vector("normal")
 
     @property
     def contact_angle(self) -> float:
-        """Over which a disc lies against a jaw, about the disc's centre [rad]; else 0."""
+        """Contact angle of a jaw, about the disc's centre [rad]; 0 for any other plate."""
         return self._number("contact_angle")
 
     @property
     def angle(self) -> float | tuple[float, ...]:
-        """Turn of a seated one, 0 when square to its normal [rad]: see `HeldNodes`."""
+        """Rotation of a seated plate, 0 if square to its normal [rad]; signs as in `HeldNodes`."""
         return self._turn("angle")
 
     @property
     def machine_energy(self) -> float:
-        """Stored in the spring between it and its crosshead, see `PartRig.drive` [J]."""
+        """Energy of the spring between the plate and its crosshead, see `PartRig.drive` [J]."""
         return 0.5 * self._number("machine") * self._number("machine_give") ** 2
 
 
@@ -136,17 +136,17 @@ class HeldNodes(RigPart):
 
     @property
     def angle(self) -> float | tuple[float, ...]:
-        """Since they were held [rad]."""
+        """Rotation since the nodes were fixed [rad]."""
         return self._turn("angle")
 
     @property
     def nodes(self) -> list[int]:
-        """Nodes of the solver, see `GrainSolver.nodePlaces`."""
+        """Indices of the nodes in the solver, see `GrainSolver.nodePlaces`."""
         return [int(node) for node in self._now["nodes"]]
 
     @property
     def axes(self) -> str:
-        """Along which they are held: ``x``, ``y``, ``z`` or several, as ``xy``."""
+        """Fixed axes: ``x``, ``y``, ``z`` or several, as ``xy``."""
         return str(self._now["axes"])
 
     def move(self, velocity: Place | None = None, spin: float | Place = 0.0) -> None:
@@ -179,12 +179,12 @@ Kind = TypeVar("Kind", bound=RigPart)
 
 
 def in_words(vector: Iterable[float], digits: int = 6) -> str:
-    """A vector in brackets, its components with so many digits."""
+    """Return a vector in brackets, with `digits` significant digits of its components."""
     return f"({', '.join(f'{one:.{digits}g}' for one in vector)})"
 
 
 def require_parts(label: str, rig: object, given: object, kind: type[Kind]) -> list[Kind]:
-    """Return parts of a rig as a list, or raise InputError; one alone needs no brackets."""
+    """Return parts of a rig as a list, or raise InputError; a single part needs no brackets."""
     if isinstance(given, RigPart):
         given = [given]
     if isinstance(given, str) or not isinstance(given, Iterable):
@@ -207,7 +207,7 @@ def require_part(label: str, rig: object, part: object, kind: type[Kind]) -> Kin
 
 
 def require_apart(label: str, *lists: Sequence[RigPart]) -> None:
-    """Raise InputError for a part that is there twice."""
+    """Raise InputError for a part that occurs twice."""
     seen: list[tuple[type, int]] = []
     for part in (part for parts in lists for part in parts):
         if (type(part), part.number) in seen:
@@ -216,5 +216,5 @@ def require_apart(label: str, *lists: Sequence[RigPart]) -> None:
 
 
 def numbers(parts: Sequence[RigPart], kind: type[RigPart]) -> list[int]:
-    """Numbers of the parts of a kind."""
+    """Return the indices of the parts of a type."""
     return [part.number for part in parts if isinstance(part, kind)]

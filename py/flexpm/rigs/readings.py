@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What every rig tells of its specimen: stress and strain, record, doubts, balance. SI units.
+"""Readings of every rig: stress and strain, record, warnings, equilibrium. SI units.
 
-Stress and axial strain are positive in the sense of the loading: compression, or tension where the
+Stress and axial strain are positive in the sense of the loading: compression, or tension if the
 rig pulls. The lateral strain is positive as Poisson's effect.
 """
 
@@ -32,9 +32,9 @@ from ..runs.loading_rate import WAITING_MODELS, Loading, Scales, Schedule, sched
 
 @dataclass(frozen=True)
 class Balance:
-    """What a specimen fails to bear of a pressure, each as a part of it, not negative [-].
+    """Missing reactions of a specimen under a pressure, as ratios to the pressure, >= 0 [-].
 
-    A wave that runs through many grains leaves each of them nearly in balance: it shows here.
+    A wave that runs through many grains leaves each grain nearly in equilibrium, but shows here.
     """
 
     reaction: float  #: of a pressing force, in what bears it
@@ -45,16 +45,16 @@ class Balance:
 
     @property
     def largest(self) -> float:
-        """The largest of them; nan where one is."""
+        """Largest of the ratios [-]; nan if any is nan."""
         return float(np.max([self.reaction, self.stress, self.motion]))
 
 
 def balance_of(solver: wrapper.GrainSolver, pressing: float) -> Balance:
-    """What grains fail to bear at the last measured step.
+    """Return the missing reactions of grains at the last measured step.
 
     Args:
-        solver: It owns the grains.
-        pressing: Least force with which the pressure acts on a whole side [N].
+        solver: Solver of the grains.
+        pressing: Least force of the pressure on an entire side [N].
     """
     now, energies = solver.balance(), solver.energies()
     mean, outside = (np.array(now[name]) for name in ("mean_stress", "outside_stress"))
@@ -67,7 +67,7 @@ def balance_of(solver: wrapper.GrainSolver, pressing: float) -> Balance:
 
 
 def curve_of(recorder: wrapper.AxialRecorder, same: Mapping[str, str]) -> Curve:
-    """The record so far, with columns of gauges, and second names of some columns."""
+    """Return the present record, with columns of gauges, and second names of some columns."""
     names, rows = list(recorder.names), recorder.rows
     for name, column in same.items():
         rows = np.column_stack([rows, rows[:, names.index(column)]])
@@ -77,20 +77,20 @@ def curve_of(recorder: wrapper.AxialRecorder, same: Mapping[str, str]) -> Curve:
 
 
 def part_of(part: float, whole: float) -> float:
-    """Ratio of two sizes that are not negative; of nothing 0, of what has no whole infinite."""
+    """Return the ratio of two sizes >= 0; 0 for a zero part, infinity for a zero total."""
     if part == 0.0:
         return 0.0
     return float(part / whole) if whole != 0.0 else math.inf
 
 
 def _softening_length(energies: Sequence[float], strengths: Sequence[float]) -> float:
-    """Mean of twice an energy over its strength [m], 0 of what has no strength."""
+    """Return the mean of twice an energy divided by its strength [m]; 0 without strength."""
     pairs = zip(energies, strengths, strict=True)
     return float(np.mean([2.0 * one / strength if strength else 0.0 for one, strength in pairs]))
 
 
 class Readings(Protocol):
-    """What the last row of a record says."""
+    """Values of the last row of a record."""
 
     @property
     def stress(self) -> float: ...  # noqa: D102
@@ -113,13 +113,13 @@ def ended_rising(stages: Sequence[Table], record: Curve) -> bool:
 
 @with_old_names
 class RigReadings(ABC):
-    """What can be read of a specimen between what loads it.
+    """Readings of a specimen between its loading ends.
 
     Attributes:
         built: The specimen and its model.
-        tension: The ends pull; else they press.
-        disc: The specimen is a disc between two plates.
-        solid: The specimen is one of space.
+        tension: Whether the ends pull; else they press.
+        disc: Whether the specimen is a disc between two plates.
+        solid: Whether the specimen is 3D.
     """
 
     def __init__(self, built: Model | SphereModel, *, tension: bool = False) -> None:
@@ -130,7 +130,7 @@ class RigReadings(ABC):
 
     @property
     def kind(self) -> str:
-        """Name of the test that has the same ends, whose loading rate is taken."""
+        """Name of the test that has the same ends, and whose loading rate is used."""
         shape, confined = self.built.specimen.kind, self.confinement is not None
         return of_ends(shape, pulls=self.tension, confined=confined)
 
@@ -140,7 +140,7 @@ class RigReadings(ABC):
         return self._schedule(Loading()).reference_strain
 
     def likely_steps(self, loading: Loading) -> int:
-        """Steps that a test of these ends will probably take under a loading."""
+        """Return the expected number of steps of a test with these ends under a loading."""
         return self._schedule(loading).likely_steps
 
     @property
@@ -161,10 +161,10 @@ class RigReadings(ABC):
     @property
     @abstractmethod
     def record(self) -> Curve:
-        """The record so far."""
+        """The present record."""
 
     def to_yade_plot(self) -> None:
-        """Give ``yade.plot`` the record so far, each column under its name; call it again later."""
+        """Copy the present record into ``yade.plot``, each column under its name."""
         from yade import plot  # takes long to load
 
         record = self.record
@@ -172,11 +172,11 @@ class RigReadings(ABC):
 
     @property
     def warnings(self) -> list[str]:
-        """What makes the record doubtful, one line each.
+        """Reasons why the record is questionable, one line each.
 
-        Load and reactions that differ, a bad energy balance, numbers that are none, sizes that are
-        surely in other units; of grains also
-        a joint that bends, a set point that is missed, a gauge whose grain is gone.
+        Causes are different load and reactions, a bad energy balance, numbers that are not finite,
+        and sizes that are probably in other units; for grains also a joint that deviates from its
+        line, a missed set point, and a gauge on an erased grain.
         """
         record = self.record
         error = measures.energy_error(record, self.initial_energy)
@@ -190,26 +190,26 @@ class RigReadings(ABC):
     @property
     @abstractmethod
     def confinement(self) -> float | None:
-        """Lateral pressure that was asked for [Pa], None without."""
+        """Requested confining pressure [Pa]; None without."""
 
     @property
     @abstractmethod
     def diverged(self) -> bool:
-        """Whether a number is not finite any more."""
+        """Whether a number is no longer finite."""
 
     @property
     def _stop_reason(self) -> str:
-        """What has stopped a simulation that diverged; empty if that is not known."""
+        """Cause that has stopped a simulation that diverged; empty if unknown."""
         return ""
 
     @property
     @abstractmethod
     def ended_by(self) -> str | None:
-        """What has ended the last stage, see ``Result``; None if nothing that ends a test."""
+        """Event that has ended the last stage, see ``Result``; None if no event has ended it."""
 
     @property
     def may_fail_at_once(self) -> bool:
-        """Whether the specimen may fail along a plane of which no crack tells before."""
+        """Whether the specimen may fail along a plane without earlier cracks."""
         return False
 
     @property
@@ -219,25 +219,25 @@ class RigReadings(ABC):
 
     @property
     def initial_energy(self) -> float | None:
-        """Energy when the work began to count [J], None if that is not known."""
+        """Energy when the work began to count [J]; None if unknown."""
         return None
 
     @property
     def contact_width(self) -> float | None:
-        """Mean width on which the plates touch a disc [m], None if that is not known."""
+        """Mean width on which the plates touch a disc [m]; None if unknown."""
         return None
 
     @abstractmethod
     def scales(self) -> Scales:
-        """What the loading rate follows from, of the specimen as it is."""
+        """Return the quantities that determine the loading rate, for the present specimen."""
 
     @abstractmethod
     def unbalanced(self) -> float:
-        """Ratio of the largest unbalanced force to the mean contact force [-]."""
+        """Return the ratio of the largest unbalanced force to the mean contact force [-]."""
 
     @abstractmethod
     def balance(self) -> Balance:
-        """What the specimen fails to bear of the pressure on it now."""
+        """Return the missing reactions of the specimen under its present pressure."""
 
     @property
     def layout(self) -> Table:
@@ -250,7 +250,7 @@ class RigReadings(ABC):
 
     @property
     def _ahead(self) -> float:
-        """Velocity of what is moved over that of the specimen's end, along the elastic solution."""
+        """Ratio of the driven velocity to the specimen's end velocity, in the elastic solution."""
         return 1.0
 
     def _schedule(self, loading: Loading) -> Schedule:
@@ -266,7 +266,7 @@ class RigReadings(ABC):
         )
 
     def _softening(self) -> Softening:
-        """Softening of the contacts, means over the minerals."""
+        """Return the softening of the contacts, means over the minerals."""
         if self.built.name not in WAITING_MODELS:
             return BRITTLE
         laws = [kind.law(self.built.name) for kind in mineral_materials(self.built.material)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What loads and steps a specimen: the stages that tests are written with. SI units."""
+"""Loading and stepping of a specimen: the stages of which tests consist. SI units."""
 
 from __future__ import annotations
 
@@ -63,10 +63,10 @@ _PATIENCE = 4
 class TestRig(RigReadings):
     """A specimen in YADE's scene between ends that load it.
 
-    A test is a sequence of its stages: calls of `confine`, `load` and `strain_to`. Each sets the
-    scene up and steps to its end. In a run that is taken up from a checkpoint, stages that were
-    over are passed, and the one that was under way goes on: what a stage changes it changes as it
-    begins, or again to the same.
+    A test is a sequence of its stages: calls of `confine`, `load` and `strain_to`. Each stage sets
+    the scene up and steps to its end. In a run that resumes from a checkpoint, finished stages are
+    skipped and the interrupted stage continues. A stage therefore makes all of its changes at its
+    beginning, or repeats them with the same outcome.
     """
 
     __test__ = False  # no test of pytest
@@ -90,16 +90,22 @@ class TestRig(RigReadings):
         self.kept: Keeper | None = None
 
     def confine(self, pressure: float) -> None:
-        """Press on the top and the sides, the bottom held, until the forces balance.
+        """Press on the top and the sides until the specimen is in equilibrium; the bottom is fixed.
 
-        They do when the reactions and the mean stress of the specimen differ from the pressure by
-        less than 0.1 %, and the waves that still run are as small. Strains count from there on.
+        In equilibrium the reactions and the mean stress of the specimen differ from the pressure by
+        less than 0.1 %, and so do the remaining waves. Strains are counted from this state.
 
         Args:
-            pressure: On all sides [Pa].
+            pressure: Confining pressure on all sides [Pa].
 
         Raises:
-            SimulationError: if the forces do not come to balance.
+            SimulationError: if the forces do not reach equilibrium.
+
+        Example:
+            >>> rig = flexpm.rig(flexpm.build(specimen))
+            >>> rig.confine(1e6)
+            >>> print(f"{rig.confinement / 1e6:.0f} MPa, {rig.ended_by}")
+            1 MPa, equilibrium
         """
         self._tell("confine", pressure=pressure, **self._pressed_part)
         begin = partial(self._begin_confinement, pressure)
@@ -113,17 +119,23 @@ class TestRig(RigReadings):
             )
 
     def roughen(self, friction: float) -> None:
-        """Raise InputError: ends with friction are available for solids of grains only."""
+        """Raise InputError: ends with friction are available for 3D specimens of grains only."""
         raise InputError(
             f"roughen: friction = {quoted(friction)}, is for solids of flexible or rigid grains "
             "between their ends; leave it out, or give the plates of a PartRig friction"
         )
 
     def load(self, loading: Loading | None = None) -> None:
-        """Drive the ends until the stress has fallen from its peak, or to the largest strain.
+        """Drive the ends until the stress has dropped from its peak, or to the largest strain.
 
         Args:
             loading: Rate, start and end; None for the defaults.
+
+        Example:
+            >>> rig = flexpm.rig(flexpm.build(specimen), tension=True)
+            >>> rig.load(flexpm.Loading(rate=6.0))
+            >>> rig.ended_by
+            'drop'
         """
         loading = Loading() if loading is None else loading
         if not isinstance(loading, Loading):
@@ -141,81 +153,83 @@ class TestRig(RigReadings):
 
     @property
     def warnings(self) -> list[str]:
-        """What makes the record doubtful, and a loading that ended while the load still rose."""
+        """Reasons why the record is questionable, and a loading that ended while the load rose."""
         rose = [doubts.of_rise(self._reached)] if ended_rising(self.stages, self.record) else []
         return super().warnings + rose
 
     def strain_to(self, strain: float, rate: float = 1.0) -> None:
-        """Load or unload at a constant rate until the record's axial strain has come to `strain`.
+        """Load or unload at a constant rate until the record's axial strain has reached `strain`.
 
         Ends that only press do not pull: in a compression test the stage ends at zero stress, with
         one line on stderr.
 
         Args:
-            strain: Where to stop, at the next row of the record [-].
+            strain: Axial strain at which the stage ends, at the next row of the record [-].
             rate: Factor on the default loading rate [-].
 
         Raises:
             InputError: for a strain or a rate out of range.
-            SimulationError: if the strain does not come there.
+            SimulationError: if the strain is not reached.
         """
         strain = require_number("strain_to: strain", strain)
         self._tell("strain_to", strain=strain, rate=rate)
         self._go_to_strain("strain_to", strain, rate)
 
     def stress_to(self, stress: float, rate: float = 1.0) -> None:
-        """Load or unload until the record's axial stress has come to `stress`.
+        """Load or unload until the record's axial stress has reached `stress`.
 
-        Grains are loaded as by ``Loading(kind="waiting")``: damping would drag on what moves
-        steadily, and one part would bear what another one does not. The loading slows down
-        towards the stress. The stage ends within 0.5 % of it, or within 0.1 % of the largest stress
-        until then if that is more. Ends that only press do not pull: in a compression test the
-        stage ends at zero stress, with one line on stderr.
+        Grains are loaded as by ``Loading(kind="waiting")``, because at a steady motion damping
+        would cause a drag and an uneven load. The loading slows down near the stress. The stage
+        ends within 0.5 % of the stress, or within 0.1 % of the largest earlier stress if that is
+        more. Ends that
+        only press do not pull: in a compression test the stage ends at zero stress, with one line
+        on stderr.
 
         Args:
-            stress: Axial stress to come to [Pa].
+            stress: Axial stress at the end of the stage [Pa].
             rate: Factor on the default loading rate [-].
 
         Raises:
             InputError: for a stress or a rate out of range.
-            SimulationError: if the specimen does not bear it.
+            SimulationError: if the specimen does not carry the stress.
         """
         stress = require_number("stress_to: stress", stress, unit="Pa")
         self._tell("stress_to", stress=stress, rate=rate)
         self._go_to_stress("stress_to", stress, rate)
 
     def start(self, loading: Loading) -> Span:
-        """Set the scene up as `load` does, without a step, and tell how many it takes."""
+        """Set the scene up as `load` does, without a step, and return the number of steps."""
         plan = self._schedule(loading)
         self._drive(plan)
         return _span(plan)
 
     def save(self, folder: Path | str, *, report: bool = True) -> Result:
-        """Write what the test has left so far into a folder, as a run does; the scene stays.
+        """Write the present results of the test into a folder, as a run does; the scene stays.
 
-        The folder has ``result.json``, ``curve.csv``, ``cracks.csv``, ``events.csv``,
-        ``fragments.csv``, ``final.vtu``, the pictures, ``report.html`` and, of a specimen that is
-        no plain packing, ``grains.json``; no frames and no checkpoints. ``inputs`` in
-        ``result.json`` tells specimen, material, parts, loading and stages; ``repeatable`` is false
-        there: only the script repeats the test.
+        The folder gets ``result.json``, ``curve.csv``, ``cracks.csv``, ``events.csv``,
+        ``fragments.csv``, ``final.vtu``, the pictures and ``report.html``. A specimen that is not a
+        plain packing adds ``grains.json``. Frames and checkpoints are not written. ``inputs`` in
+        ``result.json`` has specimen, material, parts, loading and stages; ``repeatable`` is false
+        there, because only the script repeats the test.
 
         Args:
-            folder: Made if it is not there. One that this test was saved in before is replaced.
-            report: Write report.html, too.
+            folder: Folder of the files; made if it does not exist. A folder in which this test was
+                saved before is replaced.
+            report: Also write report.html.
 
         Returns:
-            The result, as ``Result.read`` finds it there.
+            The result, as ``Result.read`` reads it from the folder.
 
         Raises:
-            InputError: if the folder holds another run, or results of something else.
+            InputError: if the folder has another run, or results of another program.
             BusyError: if another process uses it.
         """
         return save(self, self.stages, folder, report=report, step_time=self._runner.step_time)
 
     def keep_start(self, start: LoadingStart) -> None:
-        """Keep the scene to which slower loadings go back, unless it is kept or has gone by.
+        """Keep the scene from which slower loadings restart, unless it is kept or has passed.
 
-        Scenes that do not go on from any step are not kept: their test begins anew.
+        Scenes that cannot resume at any step are not kept: their test restarts from the beginning.
         """
         runner = self._runner
         wanted = runner.is_between and not runner.position.start
@@ -224,10 +238,10 @@ class TestRig(RigReadings):
 
     @property
     def ended_by(self) -> str | None:
-        """What has ended the last stage.
+        """Event that has ended the last stage.
 
-        ``drop``: the deviator fell to the stop ratio; ``plateau``: it was constant;
-        ``largest_strain``; ``equilibrium``: the specimen is at rest. None: nothing of these.
+        ``drop``: the deviator dropped to the stop ratio; ``plateau``: it was constant;
+        ``largest_strain``; ``equilibrium``: the specimen is at rest. None: no such event.
         """
         if self.diverged or not self.stages:
             return None
@@ -236,9 +250,9 @@ class TestRig(RigReadings):
         return _ENDS.get(self._readings.state)
 
     def finish(self) -> None:
-        """Bring YADE's objects up to date, for scripts that go on, and save the last state.
+        """Update YADE's objects, for scripts that continue, and save the last state.
 
-        A test with a folder gets its pictures and its page, too, as at the end of its script.
+        A test with a folder also gets its pictures and its report, as at the end of its script.
         """
         self._synchronize()
         if not self.diverged:
@@ -250,14 +264,14 @@ class TestRig(RigReadings):
 
     @abstractmethod
     def _press(self, pressure: float, ramp: int) -> None:
-        """Press on the top and the sides, rising over `ramp` steps, and hold the bottom."""
+        """Press on the top and the sides, rising over `ramp` steps, and fix the bottom."""
 
     def _measure_every(self, steps: int) -> None:
-        """Know the balance of forces at least so often; most rigs know it at each step."""
+        """Measure the balance of forces at least every `steps`; most rigs do so at each step."""
 
     @abstractmethod
     def _drive(self, plan: Schedule) -> None:
-        """Drive the ends by a plan from now on; the first time, take hold and begin the record."""
+        """Drive the ends by a plan from now on; the first call begins the record."""
 
     @property
     @abstractmethod
@@ -266,7 +280,7 @@ class TestRig(RigReadings):
 
     @abstractmethod
     def _limit_speed(self, speed: float, velocity: float) -> None:
-        """Let the ends go on at a speed, which is at most the velocity times its factor.
+        """Move the ends on at a speed, which is at most the velocity times its factor.
 
         Args:
             speed: Positive in the sense of the loading [m/step, or m/s with real masses].
@@ -280,7 +294,7 @@ class TestRig(RigReadings):
 
     @property
     def _more_balance(self) -> str:
-        """What to do where forces do not come to balance."""
+        """Remedy if forces do not reach equilibrium."""
         return "lower the pressure"
 
     def _crossing_steps(self) -> float:
@@ -288,11 +302,11 @@ class TestRig(RigReadings):
         return self.scales().crossing_steps
 
     def _preload(self, steps: int) -> None:
-        """Let so many steps go along the elastic solution, close to the first crack."""
+        """Advance by `steps` along the elastic solution, close to the first crack."""
         self._refuse_preload()
 
     def _release(self) -> None:
-        """Let go of the nodes that the preload has moved."""
+        """Release the nodes that the preload has moved."""
         self._refuse_preload()
 
     def _refuse_preload(self) -> NoReturn:
@@ -321,12 +335,12 @@ class TestRig(RigReadings):
 
     @property
     def has_scale(self) -> bool:
-        """Whether the strain that the specimen will bear is known, so that frames can be spaced."""
+        """Whether the strain at failure is known, so that frames can be spaced."""
         return True
 
     @abstractmethod
     def _synchronize(self) -> None:
-        """Bring YADE's objects up to date."""
+        """Update YADE's objects."""
 
     # Stages
 
@@ -340,7 +354,7 @@ class TestRig(RigReadings):
         self._coming = {"stage": stage, **plain}
 
     def _stage(self, begin: Callable[[], Span], over: Callable[[], bool], text: str = "") -> bool:
-        """Do a stage; False if an earlier start of the run has finished it, or all has diverged."""
+        """Run a stage; False if an earlier start has finished it, or the run has diverged."""
         if self._watching:
             name = self._coming["stage"] if self._coming else text
             raise SimulationError(
@@ -366,7 +380,7 @@ class TestRig(RigReadings):
         return True
 
     def _go_to_strain(self, stage: str, strain: float, rate: float) -> None:
-        """A part of a stage: go to a strain, see `strain_to`."""
+        """Load to a strain as part of a stage, see `strain_to`."""
         found: list[Approach] = []
 
         def over() -> bool:
@@ -390,7 +404,7 @@ class TestRig(RigReadings):
             )
 
     def _go_to_stress(self, stage: str, stress: float, rate: float) -> None:
-        """A part of a stage: go to a stress, see `stress_to`."""
+        """Load to a stress as part of a stage, see `stress_to`."""
         found: list[Approach] = []
 
         def over() -> bool:
@@ -419,21 +433,21 @@ class TestRig(RigReadings):
         return not self.may_pull
 
     def _tell_zero(self, reached: str, asked: str) -> None:
-        """Print that a stage has ended at zero stress, short of what it was to come to."""
+        """Print that a stage has ended at zero stress, before its target."""
         line = f"{reached}, not {asked}: the ends only press, the stage ends at zero stress"
         print(line, file=sys.stderr, flush=True)
 
     def approach(self, stress: float, velocity: float) -> None:
-        """Bring the stress nearer to a value, see `Approach`.
+        """Bring the stress closer to a value, see `Approach`.
 
         Args:
-            stress: To come to [Pa].
+            stress: Target stress [Pa].
             velocity: Largest velocity at a factor of 1 [m/step, or m/s with real masses].
         """
         self._limit_speed(self._closing_speed(stress), velocity)
 
     def _closing_speed(self, stress: float) -> float:
-        """Speed of what loads that brings the stress nearer to a value. Deviation D74."""
+        """Return the loading speed that brings the stress closer to a value. Deviation D74."""
         scales = self.scales()
         time = max(TRANSITS * scales.crossing_steps, ROWS * self.row_period) * yade.O.dt
         return (stress - self.stress) / scales.modulus * scales.height / time * self._ahead
@@ -502,7 +516,7 @@ class TestRig(RigReadings):
         return float(before[-1]) if len(before) else 0.0
 
     def _at_rest(self) -> bool:
-        """Whether forces balance under the full pressure; looked at each crossing of a wave."""
+        """Whether forces balance under the full pressure; checked once per wave transit time."""
         start, end = self._runner.position.stage_start, self._runner.position.stage_end
         crossings, rest = divmod(
             yade.O.iter - start, (end - start) // (RAMP_CROSSINGS + REST_CROSSINGS)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A rig of parts around a solid: plates before its sides, and lines across its depth. SI units."""
+"""A rig of parts around a 3D specimen: plates on its sides, lines across its depth. SI units."""
 
 from __future__ import annotations
 
@@ -30,13 +30,19 @@ from .patches import sides_under
 @with_old_names
 @recording
 class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
-    """A solid between parts: plates before parts of its outside, and sets of nodes.
+    """A 3D specimen between parts: plates on its surface, and sets of nodes.
 
-    `PartRig` of a solid makes one; this name goes with version 0.4. Its calls are those of
-    `PartRig`, places and directions with a third component: `support`, `platen`, `jaw`, `hold`,
-    `gauge`, `displacement_of`, `contact_angle_of`, `rotation_of`, `drive`, `rotate`,
-    `elastic`, then `settle`, `press`, `fluid`, `load`, `strain_to`, `stress_to`, `relax`, `unload`,
-    `cycle`, `follow`. Features of 2D alone are refused. Deviation D101.
+    `PartRig` of a 3D specimen makes this rig; the name ends with version 0.4. Its calls are the
+    calls of `PartRig`, with a third component of positions and directions. Features that are
+    available in 2D only raise an error. Deviation D101.
+
+    Example:
+        >>> rig = flexpm.PartRig(flexpm.build(solid))
+        >>> low = rig.hold(where=lambda x, y, z: z < 1e-4)
+        >>> top = rig.hold(where=lambda x, y, z: z > 0.0119)
+        >>> rig.drive(top, (0, 0, 1), against=low)
+        >>> [round(force) for force in rig.elastic(load=100.0).force(top)]
+        [0, 0, 100]
     """
 
     _axes = SPACE
@@ -53,10 +59,10 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         """Take grains that have just been built, or whose scene has been loaded.
 
         Args:
-            built: The solid.
-            kind: Name of the test, whose loading rate is taken.
-            runner: Steps, shows progress and saves checkpoints; None for one that only steps.
-            leaves: What the test leaves, as for `flexpm.rig`.
+            built: The 3D specimen and its model.
+            kind: Name of the test, whose loading rate is used.
+            runner: Object that steps, shows progress and saves checkpoints; None: it only steps.
+            leaves: Output of the test, as for `flexpm.rig`.
 
         Raises:
             InputError: as `PartRig`.
@@ -95,7 +101,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         self._turn((parts, back), about, require_direction("rotate: axis", axis, SPACE), sizes)
 
     def excavate(self, *_: object, **__: object) -> NoReturn:
-        """Refuse it: available in 2D only."""
+        """Raise InputError: available in 2D only."""
         raise refused("excavate: specimen = a solid, must be 2D", "excavation")
 
     @property
@@ -109,7 +115,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
 
     @property
     def may_fail_at_once(self) -> bool:
-        """A test of one's own may have few contacts across."""
+        """True: a custom test may have few contacts across."""
         return self.kind == OWN.name
 
     @property
@@ -146,11 +152,11 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         return [*plates, *sets]
 
     def read_mouth(self, first: float, second: float) -> None:
-        """Record how far two lines of the bottom at x move apart, across the depth, as ``cmod``.
+        """Record the opening between two lines of the bottom at x, across the depth, as ``cmod``.
 
         Args:
             first: x of the line on the left [m].
-            second: x of the one on the right [m].
+            second: x of the line on the right [m].
         """
         if not self._begun:
             self._frame.middle, self._frame.reach = 0.5 * (first + second), 0.5 * (second - first)
@@ -161,7 +167,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
 
     @property
     def _load_is_of_plates(self) -> bool:
-        """Whether plates bear the load, whose growth is that of their contacts."""
+        """Whether plates carry the load, which then grows with the forces of their contacts."""
         frame = self._frame
         return not frame.drivenSets or (bool(frame.holding) and not frame.holdingSets)
 
@@ -181,13 +187,13 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         super()._press(pressure, ramp)
 
     def _free(self, plates: list[int]) -> None:
-        """Let loads move plates, whose masses follow from what they touch."""
+        """Let loads move plates, whose masses follow from the nodes in contact with them."""
         for plate in plates:
             self._asked("press", partial(self._solid.freePlate, plate))
         self.built.set_masses()
 
     def _require_push(self, velocity: float) -> None:
-        """Refuse seats alone, too, on which a specimen tips over unless friction holds two."""
+        """Also reject seated plates alone: the specimen tips over unless two have friction."""
         super()._require_push(velocity)
         plates = self._solid.plates()
         holds = any(not one["seated"] for one in plates) or self._solid.nodeSets()

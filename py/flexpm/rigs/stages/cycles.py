@@ -31,7 +31,7 @@ _SAME_WAY = 1e-6
 
 
 class PartCycles(PartPressures):
-    """Base of a rig of parts that loads its specimen up and down."""
+    """Base of a rig of parts that loads its specimen in cycles or by a history."""
 
     def cycle(
         self,
@@ -143,7 +143,7 @@ class PartCycles(PartPressures):
         self._steer(stage, value / self._frame.area, _TO_REST, until="there", rate=rate)
 
     def _pass_stress(self, stage: str, stress: float, rate: float) -> None:
-        """A part of a stage: load until the stress has passed a value, at whatever speed."""
+        """Load until the stress has passed a value, at any speed, as part of a stage."""
         senses: list[float] = []  # that with which the stage began, also if it is resumed
 
         def there() -> bool:
@@ -186,7 +186,7 @@ class PartCycles(PartPressures):
             )
 
     def _require_bearing(self, stage: str, by: str, least: float) -> None:
-        """Refuse loads that pull by plates that only press."""
+        """Reject tensile loads on plates without bond."""
         if by == "load" and least < 0.0 and not self.may_pull:
             raise InputError(
                 f"{stage}: load = {least:g} N, must not be below 0: {self._driven_part} only "

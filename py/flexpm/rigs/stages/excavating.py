@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A stage that takes away what lies within a line of the specimen, at once or in parts. SI units.
+"""A stage that removes the cells within a line of the specimen, in one or several steps. SI units.
 
 Deviation D77.
 """
@@ -30,22 +30,25 @@ class PartExcavation(PartCycles):
     """Base of a rig of parts whose specimen is excavated."""
 
     def excavate(self, name: str, parts: int = 1) -> None:
-        """Take away the cells within a line of ``Specimen.with_excavations``, until all balances.
+        """Remove the cells within a line of ``Specimen.with_excavations``, until equilibrium.
 
-        What they store and how they move leaves as ``erased_energy``, by which ``boundary_work`` of
-        the record is less. Pressures stay, what is driven stands, and damping is on meanwhile, as
-        in `relax`. Strains and gauges of a record that begins later count from there on.
+        The stored and kinetic energy of the cells leaves as ``erased_energy``, by which
+        ``boundary_work`` of the record decreases. Pressures stay, driven parts stop, and damping is
+        on meanwhile, as in `relax`. Strains and gauges of a record that begins later are counted
+        from this state.
 
         Args:
             name: Name of the excavation.
-            parts: 1: they leave at once, and what they bore falls on the wall as a wave. Else the
-                forces that they exert on the wall stay, and are released in so many equal parts,
-                each slowly and until all balances; their work is boundary work.
+            parts: 1: all cells leave in one step, and their load reaches the wall as a wave. A
+                larger number keeps the forces of the cells on the wall and releases them in this
+                number of equal parts, each slowly and until equilibrium; their work is boundary
+                work.
 
         Raises:
-            InputError: for a name that the specimen has not, what is excavated already, and cells
-                without which others, or held nodes, hang on nothing.
-            SimulationError: if the forces do not come to balance.
+            InputError: for a name that the specimen does not have, cells that are already
+                excavated, and cells without which other cells, or fixed nodes, would be
+                unconnected.
+            SimulationError: if the forces do not reach equilibrium.
         """
         found = self.built.specimen.excavation(name)
         parts = require_whole("excavate: parts", parts, _PARTS)
@@ -78,7 +81,7 @@ class PartExcavation(PartCycles):
         return span
 
     def _take_away(self, found: Excavation, *, gradually: bool) -> None:
-        """Erase the cells; an engine keeps their forces on the wall if they go gradually."""
+        """Erase the cells; for a gradual excavation an engine keeps their forces on the wall."""
         solver, bodies = self.built.solver, yade.O.bodies
         cells = [int(n) for n in found.cells if bodies[solver.bodyIds[int(n)]] is not None]
         if not cells:
@@ -104,7 +107,7 @@ class PartExcavation(PartCycles):
             self.built.add_engines(before=(wall,))
 
     def _require_hanging(self, found: Excavation, cells: IntArray) -> None:
-        """Refuse cells without which others are cut off, or sets of nodes lose all of theirs."""
+        """Reject cells whose removal cuts others off, or removes all nodes of a fixed set."""
         where = f"excavate: name = {found.name}"
         numbers, places = self.built.solver.nodePlaces(bonded=True)
         lost = set(numbers[found.contains(places)].tolist())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stages that press: on several parts at once, and of a fluid on sides and walls of holes. SI."""
+"""Stages that apply pressure: on several parts, or of a fluid on sides and holes. SI units."""
 
 from __future__ import annotations
 
@@ -29,22 +29,29 @@ class PartPressures(PartRest):
         side: int | Sequence[int] | None = None,
         hole: int | None = None,
     ) -> None:
-        """Press with a fluid on sides of the outline, or on the wall of a hole, until all balances.
+        """Press with a fluid on sides of the outline, or on the wall of a hole, until equilibrium.
 
-        The pressure acts on the present edges along their present normals, and goes on to act. It
-        rises, or falls, from the one that was there. Grains that have come loose feel none. Strains
-        and gauges of a record that begins later count from there on.
+        The pressure acts on the present edges along their present normals, and stays. It rises or
+        falls from the earlier pressure. Detached grains feel no pressure. Strains and gauges of
+        a record that begins later are counted from this state.
 
         Args:
-            pressure: On the outline, into the specimen positive [Pa].
-            side: Numbers of one or several sides, as for `platen`; those of holes follow the ones
-                outside.
-            hole: Number of a hole in the order in which they were given: all of its sides.
+            pressure: Pressure on the outline, positive into the specimen [Pa].
+            side: Indices of one or several sides, as for `platen`; sides of holes follow the outer
+                sides.
+            hole: Index of a hole in the order of ``holes``: all of its sides.
 
         Raises:
-            InputError: for sides or a hole that there are not, or sides some of which are pressed
-                by another fluid.
-            SimulationError: if the forces do not come to balance.
+            InputError: for a side or hole that does not exist, or sides some of which another fluid
+                presses.
+            SimulationError: if the forces do not reach equilibrium.
+
+        Example:
+            >>> rig = flexpm.PartRig(flexpm.build(specimen))
+            >>> low = rig.hold(box=((0.0, 0.0), (0.012, 1e-4)))
+            >>> rig.fluid(1e6, side=2)
+            >>> print(f"{low.force[1]:.0f} N")
+            120 N
         """
         pressure = require_number("fluid: pressure", pressure, NOT_NEGATIVE, "Pa")
         sides = self._sides_under(side, hole)
@@ -82,7 +89,7 @@ class PartPressures(PartRest):
         self._press_until_rest("press", begin, least, what)
 
     def _require_free(self, part: Part) -> None:
-        """Refuse to press a part that the loading drives, unless it was pressed before that."""
+        """Reject pressure on a part that the loading drives, unless it was pressed before that."""
         if self._runner.has_begun:  # in an earlier start of the script
             return
         if self._recorder.loading is not None and part.number in self._frame.driven:
@@ -91,7 +98,7 @@ class PartPressures(PartRest):
             )
 
     def _press_until_rest(self, stage: str, begin: partial[Span], force: float, what: str) -> None:
-        """Step until all balances beside a force [N]; damping is on meanwhile."""
+        """Step until equilibrium relative to a force [N], with damping meanwhile."""
         self._scales = None  # joints that are closed now bear what they did not bear before
         self._from_now = True
         self._asked_force = force
@@ -105,14 +112,14 @@ class PartPressures(PartRest):
             )
 
     def _rests_under_pressure(self) -> bool:
-        """Whether forces balance under the full pressures; looked at each crossing of a wave."""
+        """Whether forces balance under the full pressures; checked once per wave transit time."""
         steps = yade.O.iter - self._runner.position.stage_start
         crossing = self._crossing_of(RAMP_CROSSINGS + REST_CROSSINGS)
         looks = steps > RAMP_CROSSINGS * crossing and steps % crossing == 0
         return self.diverged or (looks and self._bears_pressures())
 
     def _bears_pressures(self) -> bool:
-        """Whether all balances; once nothing presses or loads, whether no part bears anything."""
+        """Whether all forces balance; without pressure or load, whether no part carries a force."""
         engines = [*self._pressing_engines(), *self._fluids]
         pressing = any(one.pressure for one in engines) or self.weight
         if pressing or self._asked_force is None or self._recorder.loading is not None:
@@ -161,18 +168,18 @@ class PartPressures(PartRest):
         return [one for one in self.built.engines if type(one) is kind]
 
     def _pressure_on(self, plate: int) -> float:
-        """Pressure that a plate has been given [Pa]."""
+        """Return the pressure that was applied to a plate [Pa]."""
         return sum(one.pressure for one in self._pressing_engines() if plate in one.plates)
 
     def _let_go(self, plates: list[int]) -> None:
-        """Take plates from the engines that press them."""
+        """Remove plates from the engines that press them."""
         for engine in self._pressing_engines():
             engine.plates = [plate for plate in engine.plates if plate not in plates]
             if not engine.plates:
                 self.built.remove_engines(engine)
 
     def _fluid_on(self, sides: list[int]) -> wrapper.ConfinementController | None:
-        """The engine that presses on exactly these sides, if any does on one."""
+        """Return the engine that presses on exactly these sides; None if none presses on any."""
         for engine in self._fluids:
             if set(engine.sides) & set(sides):
                 if set(engine.sides) != set(sides):
@@ -184,7 +191,7 @@ class PartPressures(PartRest):
         return None
 
     def _sides_under(self, side: object, hole: object) -> list[int]:
-        """Numbers of the sides that a call names."""
+        """Return the indices of the sides that a call names."""
         holes = self.built.specimen.holes
         outline = self.built.specimen.outline
         outside = 1 if isinstance(outline, Circle) else len(outline)
@@ -203,7 +210,7 @@ class PartPressures(PartRest):
 
 
 def sides_of(side: object, bounds: Bounds = ANY) -> list[int]:
-    """One or several numbers of sides that a call of ``fluid`` names, in order."""
+    """Return one or several indices of sides that a call of ``fluid`` names, in order."""
     given = list(side) if isinstance(side, Iterable) and not isinstance(side, str) else [side]
     numbers = sorted({require_whole("fluid: side", one, bounds) for one in given})
     if not numbers:

@@ -167,12 +167,12 @@ class PartRest(PartStill):
         return self.diverged or (looks and self._bears_weight())
 
     def _bears_weight(self) -> bool:
-        """Whether parts and fluids bear the weight, and nothing moves."""
+        """Whether parts and fluids carry the weight, and nothing moves."""
         return self._is_balanced() and self._missing_reaction < AT_REST
 
     @property
     def _missing_reaction(self) -> float:
-        """What the parts together fail to bear of the weight [-]; 0 where fluids press, too."""
+        """Ratio of the missing reactions of all parts to the weight [-]; 0 if fluids press, too."""
         if self._force_of_fluids:
             return 0.0
         *across, up = np.sum([part.force for part in self._all_parts], axis=0)
@@ -180,5 +180,5 @@ class PartRest(PartStill):
 
 
 def _risen(part: float) -> float:
-    """Share of the weight after a part of the time in which it rises, gently at both ends [-]."""
+    """Return the share of the weight after a share of its ramp, smooth at both ends [-]."""
     return part * part * (3.0 - 2.0 * part)

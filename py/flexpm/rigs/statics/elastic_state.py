@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The static solution of a rig of parts, as a state that can be looked at. SI units."""
+"""The static solution of a rig of parts, as a state that can be plotted and read. SI units."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from ..parts import HeldNodes, Part, RigPart, require_part
 
 @dataclass(frozen=True, eq=False)
 class ElasticState(Snapshot):
-    """Where a specimen between parts would come to rest, if no contact broke further.
+    """Equilibrium of a specimen between parts without further damage.
 
-    It is a snapshot: displacements, stresses, maps are those of any other. Deviation D72.
+    It is a snapshot: displacements, stresses and maps work as for any other state. Deviation D72.
     """
 
     way: float = 0.0  #: of the driven parts along the loading [m, or rad]
@@ -41,25 +41,28 @@ class ElasticState(Snapshot):
         return self.positions - self.reference
 
     def force(self, part: RigPart) -> tuple[float, float]:
-        """Force of a part on the specimen, x and y [N]."""
+        """Return the force of a part on the specimen, x and y [N]."""
         x, y = self._of(part)[:2]
         return x, y
 
     def displacement(self, part: RigPart) -> tuple[float, float]:
-        """Displacement of a part since it was laid, x and y [m]; of nodes that are driven alone."""
+        """Return the displacement of a part, x and y [m]; of driven nodes only."""
         x, y = self._of(part)[2:4]
         return x, y
 
     def moment(self, part: HeldNodes) -> float:
-        """Moment of held nodes on the specimen about their place, counter-clockwise [N m]."""
+        """Return the moment of fixed nodes on the specimen, counter-clockwise [N m].
+
+        It refers to the point about which the nodes rotate, see `HeldNodes`.
+        """
         return self._of(require_part("elastic: part", self.rig, part, HeldNodes))[4]
 
     def angle(self, part: Part) -> float:
-        """Angle of a seated part, see `Part.angle` [rad]."""
+        """Return the rotation of a seated part, see `Part.angle` [rad]."""
         return self._of(require_part("elastic: part", self.rig, part, Part))[4]
 
     def contact_angle(self, jaw: Part) -> float:
-        """Angle over which a disc lies against a jaw, about the disc's centre [rad]."""
+        """Return the contact angle of a jaw, about the disc's centre [rad]."""
         return self._of(require_part("elastic: part", self.rig, jaw, Part))[5]
 
     def _of(self, part: RigPart) -> tuple[float, ...]:
@@ -81,7 +84,7 @@ def required_loading(displacement: float, load: float | None) -> tuple[float, fl
 
 
 def solved(rig: object, built: Model, solve: Callable[[], Table]) -> ElasticState:
-    """The state that a frame's solve finds, or one line of what it says."""
+    """Return the state that a frame's solution finds, or raise its message in one line."""
     try:
         found = solve()
     except (ValueError, RuntimeError) as error:
@@ -97,7 +100,7 @@ def solved(rig: object, built: Model, solve: Callable[[], Table]) -> ElasticStat
 
 
 class PartStatics(PartLoads):
-    """Base of a rig of parts that answers without a step."""
+    """Base of a rig of parts with a static solution."""
 
     def elastic(
         self,
@@ -142,7 +145,7 @@ class PartStatics(PartLoads):
         )
 
     def _pressed(self, frame: wrapper.PartFrame, pressures: object) -> dict[int, float]:
-        """Pressure of each plate that is to have one."""
+        """Return the pressure of each pressed plate."""
         if not isinstance(pressures, Mapping):
             raise InputError(
                 f"elastic: pressures = {quoted(pressures)}, must be a table of parts and pressures"

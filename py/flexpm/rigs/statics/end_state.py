@@ -15,7 +15,7 @@ from .elastic_state import ElasticState, required_loading, solved
 
 @with_old_names
 class EndStatics(GrainRig):
-    """Base of a rig between two ends that answers without a step."""
+    """Base of a rig between two ends with a static solution."""
 
     #: Whether its ends are plates.
     _between_plates: ClassVar[bool]
@@ -56,7 +56,7 @@ class EndStatics(GrainRig):
 
     @property
     def _pieces(self) -> int:
-        """Plates of a membrane on each side."""
+        """Number of plates of a membrane on each side."""
         return 1
 
 

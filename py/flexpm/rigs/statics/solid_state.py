@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The static solution of a solid between parts, as a state that can be looked at. SI units."""
+"""The static solution of a 3D specimen between parts, as a state that can be plotted. SI units."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ _LINEAR = (
 
 @dataclass(frozen=True, eq=False)
 class SolidElasticState(SolidSnapshot):
-    """Where an unloaded solid between parts would come to rest, if all of it stayed elastic.
+    """Elastic equilibrium of a 3D specimen between parts, from the unloaded state.
 
-    It is a snapshot as any other: displacements, stresses and sections grow in proportion with the
-    loading. Plates that are not bonded press alone: their points open and close until all agree.
-    Smooth plates let what they press slide, those with friction hold it (deviation D101).
+    It is a snapshot like any other: displacements, stresses and sections are proportional to the
+    loading. Plates without bond only press: their points open and close until the solution is
+    consistent. Grains slide along smooth plates and stick to plates with friction (deviation D101).
     """
 
     way: float = 0.0  #: of the driven parts, or a crosshead, along the loading [m, or rad]
@@ -40,19 +40,22 @@ class SolidElasticState(SolidSnapshot):
     node_sets: tuple[tuple[float, ...], ...] = ()  #: the same, moment and angle
 
     def force(self, part: RigPart) -> tuple[float, ...]:
-        """Force of a part on the specimen, x, y and z [N]."""
+        """Return the force of a part on the specimen, x, y and z [N]."""
         return self._of(part)[:3]
 
     def displacement(self, part: RigPart) -> tuple[float, ...]:
-        """Displacement of a part, x, y and z [m]; of nodes that are driven alone."""
+        """Return the displacement of a part, x, y and z [m]; of driven nodes only."""
         return self._of(part)[3:6]
 
     def moment(self, part: HeldNodes) -> tuple[float, ...]:
-        """Moment of held nodes on the specimen about their place, x, y and z [N m]."""
+        """Return the moment of fixed nodes on the specimen, x, y and z [N m].
+
+        It refers to the point about which the nodes rotate, see `HeldNodes`.
+        """
         return self._of(require_part("elastic: part", self.rig, part, HeldNodes))[6:9]
 
     def angle(self, part: RigPart) -> tuple[float, ...]:
-        """Angle of held nodes, or of a seated plate as `Part.angle` has it, x, y and z [rad]."""
+        """Return the rotation of fixed nodes or of a seated plate, x, y and z [rad]."""
         return self._of(part)[9 if isinstance(part, HeldNodes) else 6 :]
 
     def _of(self, part: RigPart) -> tuple[float, ...]:
@@ -61,7 +64,7 @@ class SolidElasticState(SolidSnapshot):
 
 
 class SolidPartStatics(PartStatics):
-    """Base of a rig of parts around a solid that answers without a step."""
+    """Base of a rig of parts around a 3D specimen with a static solution."""
 
     def elastic(  # type: ignore[override]
         self,
@@ -114,7 +117,7 @@ class SolidPartStatics(PartStatics):
 
 
 class _Sum:
-    """Sum of small linear solutions, each by a factor, beside the state at rest."""
+    """Weighted sum of small linear solutions, added to the state at rest."""
 
     def __init__(self, solid: SolidModel) -> None:
         self._solid, still = solid, solid.snapshot()
