@@ -39,6 +39,11 @@ def is_quick(command):
     return "--width 0.02" in command or command.split()[0] in ("elastic", "specimen", "doctor")
 
 
+def printed(page, capsys):
+    """Whether the page shows the line that its listing has printed."""
+    return f"It prints ``{capsys.readouterr().out.strip()}``" in (ROOT / page).read_text()
+
+
 def code_after(page, words):
     """The listing below the words of a page."""
     text = (ROOT / page).read_text()
@@ -92,6 +97,36 @@ def test_the_listings_of_the_page_on_specimens():
     exec(code_after("doc/joints.rst", ':doc:`materials`, "Joints"). In Python::'), scope)
     assert len(scope["cut"].discs) > len(scope["specimen"].discs)
     assert {0, 1} <= set(scope["cut"].edge_joints)
+
+
+@pytest.mark.parametrize(
+    ("page", "words"),
+    [
+        ("doc/csv_tables.rst", "counts the cracks before it::"),
+        ("doc/result_json.rst", "the test does not define::"),
+    ],
+)
+@pytest.mark.long
+def test_the_listings_that_read_a_run(page, words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    command = re.search(r"After ``flexpm (run [^`]+)``", (ROOT / page).read_text())[1]
+    assert cli.main([*command.split(), "--quiet"]) == 0
+    capsys.readouterr()
+    exec(code_after(page, words), {})
+    assert printed(page, capsys)
+
+
+@pytest.mark.parametrize(
+    ("page", "words"),
+    [
+        ("doc/specimen_files.rst", "reads the same grains from it::"),
+        ("doc/polyhedra.rst", "a small box and counts them::"),
+    ],
+)
+def test_the_listings_that_make_a_specimen(page, words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    exec(code_after(page, words), {})
+    assert printed(page, capsys)
 
 
 def test_the_listing_of_solids_in_the_scene(capsys):
