@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fracture networks: sets of traces with random places, lengths and angles. SI units, degrees.
+"""Fracture networks: sets of traces with random positions, lengths and angles. SI units, degrees.
 
-Centres are a Poisson process (D70). Traces are drawn in a window that is larger than the specimen
-by the longest one, so that as many reach into it as from a rock without ends, and clipped to it.
-The generator of numbers is numpy's PCG64, apart for each set by its name.
+Centres are a Poisson process (D70). Traces are generated in a window that is larger than the
+specimen by the longest trace, so that the density at its edge is the same as in an infinite rock,
+and clipped to it. Random numbers come from numpy's PCG64, with a separate stream for each set by
+its name.
 """
 
 from __future__ import annotations
@@ -50,12 +51,12 @@ class TraceSet:
     orientation: Angles
 
     def expected(self, window: Window) -> float:
-        """Mean number of traces in the window that is larger by the longest one."""
+        """Return the mean number of traces in the window enlarged by the longest trace."""
         density = self.intensity / self.length.expected
         return density * window.larger_area(self.length.longest)
 
     def draw(self, window: Window, generator: np.random.Generator) -> FloatArray:
-        """Draw traces, ends (n, 2, 2) [m], before they are clipped."""
+        """Generate traces, ends (n, 2, 2) [m], before they are clipped."""
         count = int(stats.poisson(self.expected(window)).rvs(random_state=generator))
         places = window.places(generator, count, self.length.longest)
         halves = 0.5 * self.length.draw(generator, count)
@@ -69,7 +70,7 @@ class Network:
     """A fracture network.
 
     Attributes:
-        seed: The same seed draws the same traces.
+        seed: The same seed generates the same traces.
         sets: Sets of traces by the name of their joint, cut in this order.
     """
 
@@ -78,21 +79,21 @@ class Network:
 
     @classmethod
     def read(cls, path: Path | str, seed: int | None = None) -> Network:
-        """Read a TOML file; a seed that is given counts before that of the file.
+        """Read a TOML file; a seed that is given replaces the seed of the file.
 
         Raises:
-            InputError: if it cannot be read, or for what ``of`` refuses.
+            InputError: if it cannot be read, or as for ``of``.
         """
         return cls.of(load_toml(Path(path), "network"), seed)
 
     @classmethod
     def of(cls, given: object, seed: int | None = None) -> Network:
-        """Check a network: a table as a file has it, or one that is made.
+        """Check a network: a table as in a file, or an existing network.
 
         Args:
-            given: ``seed`` (1 if left out), and under ``set`` for each joint its ``intensity``
+            given: ``seed`` (default: 1), and under ``set`` for each joint its ``intensity``
                 and tables ``length`` and ``orientation``.
-            seed: Counts before that of the table.
+            seed: Replaces the seed of the table.
 
         Raises:
             InputError: for a key that is unknown or missing, or a value out of range.
@@ -123,11 +124,11 @@ class Network:
         return {"seed": self.seed, "set": sets}
 
     def with_seed(self, seed: int) -> Network:
-        """The same network, drawn anew."""
+        """Return the same network with another seed."""
         return dataclasses.replace(self, seed=require_whole("network seed", seed, _SEED))
 
     def traces(self, window: Window) -> dict[str, FloatArray]:
-        """Draw the traces of each set, ends (n, 2, 2) [m], before they are clipped.
+        """Generate the traces of each set, ends (n, 2, 2) [m], before they are clipped.
 
         Raises:
             InputError: if more than 20 000 are expected.
@@ -144,10 +145,10 @@ class Network:
         return {name: one.draw(window, self._generator(name)) for name, one in self.sets.items()}
 
     def lines(self, window: Window) -> Lines:
-        """Draw the traces and clip them; a set without a trace in the window has no lines.
+        """Generate the traces and clip them; a set without a trace in the window has no lines.
 
         Raises:
-            InputError: if more than 20 000 traces are expected, or none is left.
+            InputError: if more than 20 000 traces are expected, or no trace remains.
         """
         found: Lines = {}
         for name, ends in self.traces(window).items():

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Angles of the traces of a fracture network: constant, von Mises, or Fisher cut by the plane.
+"""Angles of the traces of a fracture network: constant, von Mises, or Fisher cut by the section.
 
-An angle is that of the trace over the x axis, counter-clockwise [degree]. A trace has no sense, so
-that angles lie from -90 to below 90.
+Angles are measured from the x axis, counter-clockwise [degree]. A trace has no sense, so angles
+range from -90 to below 90.
 """
 
 from __future__ import annotations
@@ -37,11 +37,11 @@ class Angles(Law):
 
     @abstractmethod
     def draw(self, generator: np.random.Generator, count: int) -> FloatArray:
-        """Draw angles [degree]."""
+        """Generate angles [degree]."""
 
     @abstractmethod
     def density(self, angles: FloatArray) -> FloatArray | None:
-        """Density of angles from -90 to 90 [1/degree]; None where all have one."""
+        """Return the density of angles from -90 to 90 [1/degree]; None if all angles are equal."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Constant(Angles):
     angle: float = number(_ANGLE, "degree")
 
     def draw(self, generator: np.random.Generator, count: int) -> FloatArray:
-        """The angle, as often as is asked for [degree]."""
+        """Return `count` times the angle [degree]."""
         return folded(np.full(count, self.angle))
 
     def density(self, angles: FloatArray) -> None:
@@ -64,7 +64,7 @@ class Constant(Angles):
 
 @dataclass(frozen=True)
 class VonMises(Angles):
-    """Von Mises' law in the plane: the density is proportional to exp(concentration cos(a - mean)).
+    """Von Mises' law in 2D: the density is proportional to exp(concentration cos(a - mean)).
 
     Attributes:
         angle: Mean [degree].
@@ -75,7 +75,7 @@ class VonMises(Angles):
     concentration: float = number(_CONCENTRATION)
 
     def draw(self, generator: np.random.Generator, count: int) -> FloatArray:
-        """Draw angles [degree]."""
+        """Generate angles [degree]."""
         found = stats.vonmises(self.concentration).rvs(count, random_state=generator)
         return folded(self.angle + np.degrees(found))
 
@@ -88,11 +88,11 @@ class VonMises(Angles):
 
 @dataclass(frozen=True)
 class Fisher(Angles):
-    """Planes in space whose poles follow Fisher's law, cut by the plane of the specimen.
+    """Planes in 3D whose poles follow Fisher's law, cut by the section of the specimen.
 
-    A plane meets the section the more often, the steeper it stands on it: by the sine of the angle
-    between their poles. With ``weight = "sine"`` poles are those of all planes in the rock and
-    count by this sine; with ``"none"`` they are those of the planes that the section cuts.
+    The probability that a plane meets the section is proportional to the sine of the angle between
+    their poles. With ``weight = "sine"`` the law describes all planes in the rock, weighted by this
+    sine; with ``"none"`` it describes the planes that the section cuts.
 
     Attributes:
         dip: Dip of the mean plane [degree].
@@ -108,7 +108,7 @@ class Fisher(Angles):
     weight: str = word("sine", "none")
 
     def draw(self, generator: np.random.Generator, count: int) -> FloatArray:
-        """Draw angles [degree]."""
+        """Generate angles [degree]."""
         found: list[FloatArray] = []
         missing = count
         while missing > 0:
@@ -149,7 +149,7 @@ class Fisher(Angles):
         return Rotation.from_euler("zy", [-self.dip, -self.dip_direction], degrees=True)
 
     def _poles(self, generator: np.random.Generator, count: int) -> FloatArray:
-        """Draw poles of Fisher's law: 1 - cos of the angle from the mean is exponential, cut at 2.
+        """Generate poles of Fisher's law: 1 - cos (angle from the mean) is exponential, cut at 2.
 
         The azimuth about the mean is uniform.
         """

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contact laws of YADE's own bonded models: what each does differently by the bond rule. SI units.
+"""Contact laws of YADE's own bonded models: differences of the bond rule. SI units.
 
-``Jcfpm`` and ``Cohfrict`` differ in their classes, in how a bond is given its strength, and in what
-tells that it has broken. All else of the models is the same, see ``spheres``.
+``Jcfpm`` and ``Cohfrict`` differ in their classes, in how the strength of a bond is set, and in how
+a broken bond is detected. All other parts of the models are equal, see ``spheres``.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Functors:
 
 
 class SphereLaw(ABC):
-    """What the models of bonded spheres do differently."""
+    """Differences between the models of bonded spheres."""
 
     name: ClassVar[str]
     bending: ClassVar[bool]  #: whether bonds resist bending
@@ -71,7 +71,7 @@ class SphereLaw(ABC):
 
     @abstractmethod
     def may_have_broken(self, law: wrapper.Functor, known: int) -> bool:
-        """Tell whether there may be more broken bonds than the `known` ones."""
+        """Return whether there may be more broken bonds than the `known` bonds."""
 
     @abstractmethod
     def has_broken(self, bond: wrapper.IPhys, place: wrapper.IGeom) -> bool:
@@ -84,15 +84,15 @@ class SphereLaw(ABC):
 
     @abstractmethod
     def is_bond(self, contact: wrapper.IPhys) -> bool:
-        """Tell whether the properties of a contact are those of a whole bond."""
+        """Return whether the properties of a contact belong to an intact bond."""
 
     @abstractmethod
     def is_tensile(self, bond: wrapper.IPhys, tension: float, bonds: Bonds, row: int) -> bool:
-        """Tell whether a broken bond broke in tension rather than in shear.
+        """Return whether a broken bond broke in tension rather than in shear.
 
         Args:
             bond: Its properties.
-            tension: Force that the bond carried last, positive in tension [N].
+            tension: Last force of the bond, positive in tension [N].
             bonds: Properties of all bonds.
             row: Row of the bond.
         """
@@ -161,15 +161,15 @@ class Jcfpm(SphereLaw):
         return bool(law.nbTensCracks + law.nbShearCracks != known)
 
     def has_broken(self, bond: wrapper.IPhys, place: wrapper.IGeom) -> bool:
-        """Tell whether the law has broken a bond."""
+        """Return whether the law has broken a bond."""
         return bool(bond.isBroken)
 
     def is_bond(self, contact: wrapper.IPhys) -> bool:
-        """Tell whether a contact holds together."""
+        """Return whether a contact is bonded."""
         return bool(contact.isCohesive)
 
     def is_tensile(self, bond: wrapper.IPhys, tension: float, bonds: Bonds, row: int) -> bool:
-        """Tell whether the bond was opened beyond its tensile limit."""
+        """Return whether the bond was opened beyond its tensile limit."""
         limit = bonds.tensile_strength[row] / bonds.normal_stiffness[row]
         return bool(bond.crackJointAperture > limit)
 
@@ -240,17 +240,17 @@ class Cohfrict(SphereLaw):
         return True
 
     def has_broken(self, bond: wrapper.IPhys, place: wrapper.IGeom) -> bool:
-        """Tell whether the law has broken a bond."""
+        """Return whether the law has broken a bond."""
         # some versions of the law drop a bond in tension and leave only its geometry to tell
         tension = -bond.kn * (place.penetrationDepth - bond.unp)
         return bool(bond.cohesionBroken or tension > bond.normalAdhesion)
 
     def is_bond(self, contact: wrapper.IPhys) -> bool:
-        """Tell whether a contact holds together."""
+        """Return whether a contact is bonded."""
         return not contact.cohesionBroken  # new contacts have no cohesion to break
 
     def is_tensile(self, bond: wrapper.IPhys, tension: float, bonds: Bonds, row: int) -> bool:
-        """Tell whether the tension was closer to its limit than the shear force."""
+        """Return whether the tension was closer to its limit than the shear force."""
         limit = bonds.shear_strength[row] - bond.tangensOfFrictionAngle * tension
         shear = bond.shearForce.norm() * bonds.tensile_strength[row]
         return bool(tension * max(limit, 0.0) > shear)

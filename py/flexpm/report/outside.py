@@ -48,16 +48,16 @@ def outside_picture(
     grains: IntArray,
     caption: str = "",
 ) -> None:
-    """Draw the faces of a convex solid that can be seen, each grain in a colour of its own.
+    """Plot the visible faces of a convex 3D specimen, each grain in its own colour.
 
-    Faces that are turned to the eye hide each other nowhere, since the solid is convex.
+    The specimen is convex, so faces towards the viewer never hide each other.
 
     Args:
-        path: Picture to write.
-        vertices: Places (n, 3) [m].
-        faces: Vertices of each face on the outside, counter-clockwise as seen from there.
+        path: File of the figure.
+        vertices: Positions (n, 3) [m].
+        faces: Vertices of each outer face, counter-clockwise as seen from outside.
         grains: Grain of each of these faces.
-        caption: Line above the picture.
+        caption: Line above the figure.
     """
     with rc_context(STYLE):
         tall = 5.6
@@ -78,18 +78,18 @@ def draw_faces(
     edges: bool = True,
     minerals: IntArray | None = None,
 ) -> tuple[float, float]:
-    """Draw the faces that are turned to the eye, the farther ones first.
+    """Plot the faces towards the viewer, the farther faces first.
 
     Args:
-        axes: Where to draw.
-        vertices: Places (n, 3) [m].
-        faces: Vertices of each face on the outside, counter-clockwise as seen from there.
+        axes: Axes to plot in.
+        vertices: Positions (n, 3) [m].
+        faces: Vertices of each outer face, counter-clockwise as seen from outside.
         grains: Grain of each of these faces.
-        edges: Draw their edges, too.
-        minerals: Index of each grain's mineral, which then colours it.
+        edges: Whether their edges are plotted.
+        minerals: Index of each grain's mineral, which then selects the colour.
 
     Returns:
-        Width and height of what is drawn [mm].
+        Width and height of the plotted faces [mm].
     """
     eye = _EYE / np.linalg.norm(_EYE)
     right = np.cross([0.0, 0.0, 1.0], eye)
@@ -129,14 +129,14 @@ def draw_faces(
 
 
 def draw_solid(path: Path | str, snapshot: SolidSnapshot, caption: str = "") -> None:
-    """Draw the outside of a solid beside its section, which is coloured by the stress along z.
+    """Plot the surface of a 3D specimen next to its section, which has the colours of the z stress.
 
-    A state that has no place, of a run that has diverged, is not drawn.
+    A state without positions, of a run that has diverged, is not plotted.
 
     Args:
-        path: Picture to write.
+        path: File of the figure.
         snapshot: The state.
-        caption: Line above the picture.
+        caption: Line above the figure.
     """
     if not can_be_drawn(snapshot.positions[:, [0, 2]]):
         remove_earlier(path)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a laboratory reads off a compressed core before its peak. SI units, signs as in the record.
+"""Quantities that a laboratory measures on a core before its peak. SI units, signs of the record.
 
-Stresses are deviators: axial stress above the least lateral pressure.
+Stresses are deviators: axial stress minus the least confining pressure.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ VOLUME = "volumetric_strain"
 
 
 def volumetric_strain(curve: Curve, *, solid: bool) -> FloatArray:
-    """Total volumetric strain, positive as the specimen shrinks [-]; of the plane that of area."""
+    """Return the total volumetric strain, positive in contraction [-]; 2D: strain of area."""
     return curve["axial_strain"] - (2.0 if solid else 1.0) * curve["lateral_strain"]
 
 
 def with_volume(curve: Curve, *, solid: bool) -> Curve:
-    """The record with its volumetric strain as a column of its own; of the plane that of area."""
+    """Return the record with its volumetric strain as an additional column; 2D: strain of area."""
     volume = volumetric_strain(curve, solid=solid)
     return Curve.from_array(np.column_stack([curve.array, volume]), (*curve.own, VOLUME))
 
@@ -38,17 +38,17 @@ def with_volume(curve: Curve, *, solid: bool) -> Curve:
 def elastic_volumetric_strain(
     curve: Curve, modulus: float, ratio: float, *, solid: bool
 ) -> FloatArray:
-    """Volumetric strain of the loading, were the specimen elastic [-].
+    """Return the volumetric strain of the loading of an elastic specimen [-].
 
-    Lateral pressures stay, so that the axial stress alone strains it: (1 - 2 nu) / E times its
-    growth since the strain was 0; in the plane (1 - nu) / E, with the moduli of its own state,
-    plane stress or plane strain.
+    Confining pressures are constant, so only the axial stress strains the specimen. The strain is
+    (1 - 2 nu) / E times the stress increase since the strain was 0. In 2D it is (1 - nu) / E, with
+    the moduli of plane stress or plane strain.
 
     Args:
         curve: The record.
-        modulus: Young's modulus as the loading starts [Pa].
-        ratio: Poisson's ratio as the loading starts [-].
-        solid: The specimen is one of space.
+        modulus: Young's modulus at the start of the loading [Pa].
+        ratio: Poisson's ratio at the start of the loading [-].
+        solid: Whether the specimen is 3D.
     """
     stress, strain = curve["axial_stress"], curve["axial_strain"]
     grown = stress - stress[0] + modulus * strain[0] if len(stress) else stress
@@ -67,18 +67,18 @@ def crack_thresholds(
 ) -> Thresholds:
     """Read the thresholds of a compressed core.
 
-    ``crack_initiation_stress``: 1 % of the cracks at the peak exist, at least one.
-    ``crack_damage_stress``: the specimen is smallest, and dilates from there on.
-    ``crack_initiation_stress_volumetric``: crack volumetric strain, the total minus the elastic
-    one, exceeds 2 % of the elastic one from there on, until damage or else the peak. A specimen
-    that dilates has cracks: initiation by volume is not above damage. Both are the largest
-    deviator until their row, for within a burst of cracks the stress falls.
+    ``crack_initiation_stress``: 1 % of the cracks at the peak exist, at least one crack.
+    ``crack_damage_stress``: the volume of the specimen is smallest, and then increases.
+    ``crack_initiation_stress_volumetric``: the crack volumetric strain (total minus elastic strain)
+    exceeds 2 % of the elastic strain from this row on, until damage or else the peak. A specimen
+    that dilates has cracks, so initiation by volume is not above damage. All are the largest
+    deviator until their row, because the stress drops within a burst of cracks.
 
     Args:
         curve: The record.
-        modulus: Young's modulus as the loading starts [Pa].
-        ratio: Poisson's ratio as the loading starts [-].
-        solid: The specimen is one of space.
+        modulus: Young's modulus at the start of the loading [Pa].
+        ratio: Poisson's ratio at the start of the loading [-].
+        solid: Whether the specimen is 3D.
     """
     names = ("crack_initiation_stress", "crack_initiation_stress_volumetric", "crack_damage_stress")
     peak = peak_row(curve)
@@ -120,7 +120,7 @@ def _damage_row(total: FloatArray) -> int | str:
 
 
 def _widening_row(total: FloatArray, elastic: FloatArray, damage: int | None) -> int | str:
-    """Row from which on cracks widen the specimen, not behind that of damage."""
+    """Return the row from which cracks widen the specimen, at most the row of damage."""
     if not np.all(np.isfinite(total + elastic)):
         return _NO_LATERAL
     within = elastic - total <= CRACK_STRAIN_SHARE * np.abs(elastic)

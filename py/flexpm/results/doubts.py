@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Doubts about a run, one line each: other units than SI's, too fast a loading.
+"""Warnings about a run, one line each: units other than SI units, too fast a loading.
 
-A doubt stops nothing: the numbers are computed as they were asked for.
+A warning stops nothing: the numbers are computed as requested.
 """
 
 from __future__ import annotations
@@ -141,10 +141,10 @@ def of_softening(material: Table) -> list[str]:
 
 
 def of_weak_joints(inputs: Table) -> list[str]:
-    """Joints so weak beside the rock that no limit of the loading parts rates.
+    """Warn of joints that are too weak relative to the rock for any limit of the loading.
 
     Args:
-        inputs: As result.json has them.
+        inputs: Inputs as in result.json.
     """
     if Stage.LOAD not in kind_of(inputs["test"]).stages:  # what slides does so at any rate
         return []
@@ -165,7 +165,7 @@ def of_weak_joints(inputs: Table) -> list[str]:
 
 
 def of_gravity(gravity: float, damping: float) -> list[str]:
-    """What local damping does to motion under gravity.
+    """Warn of the effect of local damping on motion under gravity.
 
     Args:
         gravity: Acceleration [m/s2].
@@ -213,10 +213,10 @@ def of_lengths(sizes: Mapping[str, float], diameters: Sequence[float]) -> list[s
 
 
 def of_material(material: Table, model: str, *, solid: bool) -> list[str]:
-    """Calibration of a material for another dimension or another model than those of a run.
+    """Warn of a material that was calibrated for another dimension or model.
 
     Args:
-        material: As result.json has it.
+        material: Material as in result.json.
         model: Model of the run.
         solid: Whether its specimen is 3D.
     """
@@ -235,7 +235,7 @@ def of_material(material: Table, model: str, *, solid: bool) -> list[str]:
 def of_result(
     status: str, energy_error: float | None, mismatch: float | None, rate: float | None
 ) -> list[str]:
-    """What the results say about the loading.
+    """Warn of a loading that was too fast or out of balance, from the results.
 
     Args:
         status: Status of the result.
@@ -290,7 +290,7 @@ def of_few_rows(rows: int, steps: int, rate: float | None) -> list[str]:
 
 
 def peak_change(loadings: Sequence[Table]) -> float | None:
-    """Difference of the peaks of the last two loadings, over the last [-]; None without one."""
+    """Return the relative change of the peak between the last two loadings [-]; None without."""
     peaks = [one["peak_stress"] for one in loadings[-2:]]
     if len(peaks) < 2 or not all(peaks):
         return None
@@ -298,10 +298,10 @@ def peak_change(loadings: Sequence[Table]) -> float | None:
 
 
 def of_rates(loadings: Sequence[Table], status: str) -> list[str]:
-    """What a test says whose rate has been halved as often as was asked for.
+    """Warn of a test whose rate has been halved as often as requested, without success.
 
     Args:
-        loadings: As result.json has them.
+        loadings: Loadings as in result.json.
         status: Status of the result.
     """
     if status != "not_quasistatic":
@@ -343,10 +343,11 @@ def of_motion(kinetic_shares: Mapping[str, float], parting: float | None) -> lis
 
 
 def of_regained(first: float, largest: float) -> str:
-    """What to say of a compression whose largest stress comes after a peak that was left.
+    """Warn of a compression whose largest stress follows an earlier peak.
 
     Args:
-        first: First peak that has been left and regained [Pa], see ``measures.regained_peak``.
+        first: First peak from which the stress dropped and rose again [Pa], see
+            ``measures.regained_peak``.
         largest: Largest stress [Pa].
     """
     return (
@@ -356,10 +357,10 @@ def of_regained(first: float, largest: float) -> str:
 
 
 def of_growth(growth: float | None) -> list[str]:
-    """What the load tells that still grew fast as its peak came.
+    """Warn of a load that still grew fast at its peak.
 
     Args:
-        growth: While a wave last crossed the specimen before the peak, over the peak [-].
+        growth: Ratio of the load increase during the last wave transit to the peak [-].
     """
     if growth is None or growth <= LARGEST_GROWTH:
         return []
@@ -370,10 +371,10 @@ def of_growth(growth: float | None) -> list[str]:
 
 
 def of_grains(across: float | None) -> list[str]:
-    """What few grains across say about the strength.
+    """Warn of a strength from few grains across.
 
     Args:
-        across: Smallest size of the specimen, or its ligament, over the mean grain [-].
+        across: Ratio of the smallest size of the specimen, or its ligament, to the mean grain [-].
     """
     if across is None or across >= FEWEST_GRAINS_ACROSS:
         return []
@@ -384,11 +385,11 @@ def of_grains(across: float | None) -> list[str]:
 
 
 def of_poissons_ratio(ratio: float | None, elastic: float | None) -> list[str]:
-    """What points that soften early make of Poisson's ratio.
+    """Warn of a Poisson's ratio that early softening has changed.
 
     Args:
-        ratio: Between 5 and 25 % of the peak [-].
-        elastic: Before the first point softens [-].
+        ratio: Poisson's ratio between 5 and 25 % of the peak [-].
+        elastic: Poisson's ratio before the first point softens [-].
     """
     if ratio is None or not elastic or abs(ratio / elastic - 1.0) <= LARGEST_POISSON_CHANGE:
         return []
@@ -443,10 +444,10 @@ def of_bend(bend: float) -> str:
 
 
 def of_cuts(cuts: Table) -> list[str]:
-    """What lines of joints that are not cut say, in one line.
+    """Warn of lines of joints that are not cut, in one line.
 
     Args:
-        cuts: Per joint what came of its lines, as result.json has it.
+        cuts: Outcome of the cuts of each joint, as in result.json.
     """
     found = []
     for name, cut in cuts.items():
@@ -464,11 +465,11 @@ def of_cuts(cuts: Table) -> list[str]:
 
 
 def of_set_point(measure: str, missed: float) -> list[str]:
-    """What a set point that is missed says about the rate.
+    """Warn of a missed set point, which indicates too high a rate.
 
     Args:
-        measure: Column that was to follow it.
-        missed: Part of the rows in which it is off by more than `SET_POINT_OFF` [-].
+        measure: Controlled column.
+        missed: Share of the rows that are off by more than `SET_POINT_OFF` [-].
     """
     if not missed > MOST_MISSED:
         return []
@@ -479,11 +480,11 @@ def of_set_point(measure: str, missed: float) -> list[str]:
 
 
 def of_divergence(step: int, reason: str = "") -> str:
-    """What is left of a test that could not go on.
+    """Warn of a test that could not continue, and state which rows are valid.
 
     Args:
-        step: The last one.
-        reason: What has stopped it, if that is known.
+        step: Last valid step.
+        reason: Cause of the end, if it is known.
     """
     found = reason or (
         "a number was not finite any more or faces of a solid had turned over; lower the rate or "
@@ -493,7 +494,7 @@ def of_divergence(step: int, reason: str = "") -> str:
 
 
 def of_lost_gauge(name: str) -> str:
-    """What a gauge reads of a grain that has been erased."""
+    """Warn of a gauge on an erased grain."""
     return f"gauge {name} reads a node of a grain that was erased, which stays where it was"
 
 

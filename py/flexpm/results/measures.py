@@ -68,16 +68,16 @@ def still_rises(curve: Curve) -> bool:
 
 
 def plateau_stress(curve: Curve) -> float:
-    """Mean axial stress over the plateau that has ended a test [Pa]: that of the last rows."""
+    """Return the mean axial stress of the plateau that ended a test [Pa], from the last rows."""
     strain = curve["axial_strain"]
     return float(np.mean(curve["axial_stress"][strain >= strain[-1] - PLATEAU_STRAIN]))
 
 
 def until_regained(curve: Curve) -> Curve:
-    """The record until the stress regains a peak from which it had fallen by 10 %.
+    """Return the record until the stress regains a peak from which it had dropped by 10 %.
 
     A disc that has split may carry more than before: its strength is the peak at which it split.
-    Falls below a fifth of the largest stress, while plates find their place, do not count.
+    Drops below a fifth of the largest stress, while plates come into contact, do not count.
     """
     stress = differential_stress(curve)
     if len(stress) == 0 or not np.all(np.isfinite(stress)):
@@ -168,11 +168,11 @@ def tangent_modulus_ratio(curve: Curve) -> float | None:
 
 
 def softening_onset(curve: Curve) -> float | None:
-    """Share of the peak stress at which the first contact point leaves its elastic branch [-].
+    """Return the ratio to the peak stress at which the first point leaves its elastic branch [-].
 
-    A point dissipates nothing on that branch, to the last bit, and does with any step beyond it: it
-    is left in the first row whose damage energy is above 0. Both stresses are those above the
-    confinement; 0 if points have softened before the loading. None without a peak.
+    A point dissipates nothing on that branch, to the last bit, and dissipates in any step beyond
+    it. The onset is therefore the first row whose damage energy is > 0. Both stresses exceed the
+    confining pressure; 0 if points have softened before the loading. None without a peak.
     """
     peak = peak_row(curve)
     if peak is None:
@@ -288,30 +288,30 @@ def kinetic_shares(curve: Curve) -> dict[str, float]:
 
 
 def unbalanced_ratio(curve: Curve) -> float | None:
-    """Largest unbalanced-force ratio from 5 % of the peak up to the peak [-].
+    """Return the largest unbalanced-force ratio from 5 % of the peak up to the peak [-].
 
-    Below that the contact forces, which the ratio refers to, are too small to say anything. Each
-    crack unbalances its two grains for a moment at any loading rate, so this says how violently
-    bonds break; `median_unbalanced_ratio` follows the rate.
+    Below 5 % the contact forces, to which the ratio refers, are too small. Each crack unbalances
+    its two grains for a moment at any loading rate, so this ratio measures how violently bonds
+    break; `median_unbalanced_ratio` follows the rate.
     """
     return _while_loaded(curve, curve["unbalanced_ratio"], np.nanmax)
 
 
 def median_unbalanced_ratio(curve: Curve) -> float | None:
-    """Median of the unbalanced-force ratio over the same rows [-]; proportional to the rate.
+    """Return the median unbalanced-force ratio over the same rows [-]; proportional to the rate.
 
-    Rows at a faster rate count with the ratio that the slowest would have given: they are driven so
-    where the rate does not matter. Those of a preload, in which nothing is free, do not count.
+    Rows at a faster rate count with the ratio at the slowest rate: the rate is faster where it does
+    not matter. Rows of a preload, in which no node is free, do not count.
     """
     ratio = np.where(curve["unbalanced_ratio"] > 0.0, curve["unbalanced_ratio"], np.nan)
     return _while_loaded(curve, ratio / _faster(curve), np.nanmedian)
 
 
 def unbalanced_under_way(curve: Curve) -> float | None:
-    """Unbalanced-force ratio that a fifth of the loading up to the peak exceeds [-].
+    """Return the unbalanced-force ratio that a fifth of the loading up to the peak exceeds [-].
 
-    For loadings that wait for cracks: rows count by the rate at which the load went on. Those of a
-    preload, in which nothing is free, do not count.
+    For crack-controlled loadings: rows are weighted by their loading rate. Rows of a preload, in
+    which no node is free, do not count.
     """
     rates = np.where(curve["unbalanced_ratio"] > 0.0, curve["velocity_factor"], 0.0)
 
@@ -330,7 +330,7 @@ def rows_while_loaded(curve: Curve) -> int:
 
 
 def end_mismatch(curve: Curve) -> float | None:
-    """Largest difference of both ends' reactions over the larger one, over the same rows [-]."""
+    """Return the largest relative difference of both ends' reactions over the same rows [-]."""
     return _while_loaded(curve, curve["end_mismatch"], np.nanmax)
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Frames of a run: its state at even strains and around the peak, as files for ParaView. SI units.
 
-How far a test will strain is not known before. Frames begin close together, and every second one is
-removed when there are twice as many as asked for.
+The largest strain of a test is unknown in advance. Frames begin close together, and every second
+frame is removed when their number is twice the requested number.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Frame(NamedTuple):
 
 
 class LastState(NamedTuple):
-    """State in which a test has ended, for a frame of it once the scene may be another one."""
+    """Last state of a test, for a frame that is written after the scene may have changed."""
 
     step: int
     axial_strain: float  #: [-]
@@ -59,7 +59,7 @@ class LastState(NamedTuple):
 
     @classmethod
     def of(cls, rig: TestRig, snapshot: AnySnapshot | None = None) -> LastState:
-        """That of a rig whose scene is there.
+        """Return the last state of a rig whose scene exists.
 
         Args:
             rig: The rig.
@@ -80,15 +80,15 @@ class FrameWriter:
         resumed_at: int | None,
         memory: Table | None = None,
     ) -> None:
-        """Take up the frames of an earlier start, or remove those of another run.
+        """Continue the frames of an earlier start, or remove frames of another run.
 
         Args:
             folder: Folder of the run.
-            wanted: Number of frames at even strains up to the reference strain, > 0; twice as many
-                are kept at most, fewer if the test ends before or has fewer rows.
-            about: What each file says of the run.
-            resumed_at: Step from which an earlier start goes on, None for none.
-            memory: What `remember` returned at that step; None: nothing is known of it.
+            wanted: Number of frames at even strains up to the reference strain, > 0; twice this
+                number is kept at most, fewer if the test ends before or has fewer rows.
+            about: Description of the run in each file.
+            resumed_at: Step from which an earlier start resumes; None: no earlier start.
+            memory: Value that `remember` returned at that step; None: unknown.
         """
         self._folder, self._wanted, self._about = folder, wanted, about
         memory = memory or {}
@@ -112,7 +112,7 @@ class FrameWriter:
                 file.unlink()
 
     def remember(self) -> Table:
-        """Write the state of the peak, and return what a later start needs for the same frames."""
+        """Write the state of the peak, and return the data from which a later start continues."""
         if not self._spacing:
             return {}
         self._write_peak_state()
@@ -127,7 +127,7 @@ class FrameWriter:
         }
 
     def __call__(self, rig: TestRig) -> None:
-        """Look at a rig after a step."""
+        """Record a frame of a rig after a step, if it is due."""
         strain, stress = rig.strain, rig.stress
         if strain >= self._next:
             self._take_even(rig, strain, stress)
@@ -143,7 +143,7 @@ class FrameWriter:
             self._write(self._frame(strain, stress, _PEAK), rig.built.snapshot())
 
     def finish(self, last: LastState) -> None:
-        """Write the state of the peak, if there was one, and the last one, unless it diverged."""
+        """Write the state of the peak, if it exists, and the last state, unless it diverged."""
         self._write_peak()
         if last.snapshot is not None:
             frame = self._frame(last.axial_strain, last.axial_stress, _EVEN, last.step)
@@ -193,7 +193,7 @@ class FrameWriter:
             self._peak_state = None
 
     def _forget_peak(self) -> None:
-        """Remove the state of a peak that a larger one has followed."""
+        """Remove the state of an earlier, smaller peak."""
         peak = self._peak if self._peak_state is None else None  # else it was not written
         if peak is not None and all(one.step != peak.step for one in self.frames):
             (self._folder / peak.file).unlink(missing_ok=True)
@@ -257,7 +257,7 @@ def _known(rows: Sequence[Sequence[object]]) -> list[Frame]:
 
 
 def show_frames(folder: Path, frames: Sequence[Frame], result: Result, film: str | None) -> None:
-    """Write what shows the frames of a test: a state of ParaView, and a film if asked for."""
+    """Write a ParaView state for the frames of a test, and a film if requested."""
     from ..report import film as films
     from ..report import paraview  # both take long to load
 
@@ -271,7 +271,7 @@ def show_frames(folder: Path, frames: Sequence[Frame], result: Result, film: str
 
 
 def _read(folder: Path, resumed_at: int | None, memory: Table) -> list[Frame]:
-    """Frames that an earlier start has left, up to where it is taken up."""
+    """Return the frames of an earlier start, up to the step where it resumes."""
     if resumed_at is not None and "frames" in memory:
         return _known(memory["frames"])
     if resumed_at is None or not (folder / TABLE).is_file():

@@ -65,12 +65,12 @@ class GrainRig(TestRig):
 
     @property
     def record(self) -> Curve:
-        """The record so far."""
+        """The present record."""
         return curve_of(self._recorder, self._same)
 
     @property
     def warnings(self) -> list[str]:
-        """What makes the record doubtful, see `TestRig.warnings`."""
+        """Reasons why the record is questionable, see `TestRig.warnings`."""
         record, recorder = self.record, self._recorder
         lines = super().warnings
         if bend := self.built.joint_deviation:
@@ -90,13 +90,13 @@ class GrainRig(TestRig):
 
     @property
     def confinement(self) -> float | None:
-        """Lateral pressure that was asked for [Pa], None without."""
+        """Requested confining pressure [Pa]; None without."""
         pressing = self._pressing()
         return pressing.pressure if pressing else None
 
     @property
     def diverged(self) -> bool:
-        """Whether a number is not finite any more."""
+        """Whether a number is no longer finite."""
         return self.built.solver.diverged
 
     @property
@@ -105,7 +105,7 @@ class GrainRig(TestRig):
 
     @property
     def may_fail_at_once(self) -> bool:
-        """Whether a joint may soften as one, so that no crack tells it before. Deviation D58."""
+        """Whether a joint may soften simultaneously, without an earlier crack. Deviation D58."""
         return self.built.specimen.edge_joints is not None
 
     @property
@@ -120,10 +120,10 @@ class GrainRig(TestRig):
         return float(np.mean(widths)) if self.disc else None
 
     def scales(self) -> Scales:
-        """What the loading rate follows from, of the specimen as it is.
+        """Return the quantities that determine the loading rate, for the present specimen.
 
         Raises:
-            InputError: where nothing resists the loading.
+            InputError: if nothing resists the loading.
         """
         try:
             return Scales(**self._recorder.scales())
@@ -145,9 +145,9 @@ class GrainRig(TestRig):
         return self.built.solver.unbalanced()
 
     def balance(self) -> Balance:
-        """What the specimen fails to bear of the pressure on it.
+        """Return the missing reactions of the specimen under its pressure.
 
-        The motion is that of the last measured step.
+        The motion belongs to the last measured step.
         """
         return balance_of(self.built.solver, self._pressing_force())
 
@@ -219,7 +219,7 @@ class GrainRig(TestRig):
         self.built.add_engines(last=servo)
 
     def _velocity(self) -> FloatArray:
-        """Velocity of what loads, 0 before the first loading [m/step, or m/s with real masses]."""
+        """Velocity of the loading end, 0 before any loading [m/step, or m/s with real masses]."""
         loading = self._recorder.loading
         if isinstance(loading, wrapper.EndDisplacementController | wrapper.SolidLoadingController):
             return np.array((0.0, loading.velocity, 0.0)) * loading.velocityFactor
@@ -228,13 +228,14 @@ class GrainRig(TestRig):
         return np.zeros(3)
 
     def _rising_factor(self, plan: Schedule, before: FloatArray) -> float:
-        """Factor with which ends with real masses begin: that of their present velocity, or less.
+        """Return the initial velocity factor of ends with real masses: the present factor, or less.
 
-        At rest or going back they begin slowly, and their velocity grows over wave transits.
+        From rest or a reverse motion they begin slowly, and their velocity grows over wave
+        transits.
 
         Args:
-            plan: Its velocity has been set.
-            before: Velocity until now [m/s].
+            plan: Plan whose velocity has been set.
+            before: Present velocity [m/s].
         """
         loading = self._recorder.loading
         assert loading is not None
@@ -260,7 +261,7 @@ class GrainRig(TestRig):
         return (servo,)
 
     def _require_measure(self, control: str) -> None:
-        """Refuse control of what is no measure, or not of the one that the record began with."""
+        """Reject control of an unknown quantity, or a change of the controlled quantity."""
         possible = self._measures()
         if control and control not in possible:
             rule = f"must be one of {', '.join(possible)}" if possible else "must be left out here"
@@ -308,10 +309,10 @@ class GrainRig(TestRig):
         )
 
     def _is_free_to_fall(self, plan: Schedule) -> bool:
-        """Whether damping leaves alone what moves steadily after the peak. Deviation D55.
+        """Whether damping does not act on steady motion after the peak. Deviation D55.
 
-        The halves of a beam would fly apart, blocks would slide on past their balance, and a test
-        under control of a measure comes down at its rate.
+        The halves of a beam would fly apart, blocks would slide past their equilibrium, and a test
+        with a controlled quantity unloads at its rate.
         """
         joints = self.built.specimen.edge_joints
         return kind_of(self.kind).falls_freely and joints is None and not plan.control
@@ -367,11 +368,11 @@ class GrainRig(TestRig):
 
     @abstractmethod
     def _take_hold(self) -> wrapper.LoadingController:
-        """Hold the lower end, and take the pressure off the upper one, which is driven next."""
+        """Fix the lower end, and remove the pressure from the upper end, which is driven next."""
 
     @abstractmethod
     def _move(self, velocity: float, factor: float) -> None:
-        """Set the velocity of the upper end, positive away from the lower one."""
+        """Set the velocity of the upper end, positive away from the lower end."""
 
 
 class NodeRig(GrainRig):
@@ -420,7 +421,7 @@ class NodeRig(GrainRig):
 
 
 class PlateRig(GrainRig):
-    """Rigid plates: the first is the lower one, the second the upper one."""
+    """Rigid plates: the first plate is below, the second above."""
 
     def _press(self, pressure: float, ramp: int) -> None:
         self._lay_ends()

@@ -58,7 +58,7 @@ _NO_PRESSURE = "must be of flexible or rigid grains in a solid; pressure acts on
 
 @dataclass
 class _State:
-    """What YADE does not hold of a test: plain values that go with its scene."""
+    """State of a test that YADE does not store: plain values that are saved with its scene."""
 
     period: int = 1  #: steps from one look to the next
     looks: int = 0
@@ -89,7 +89,7 @@ class _State:
 
 
 class SphereRig(TestRig):
-    """Plates, grips and pressure on spheres, looked at every so many steps."""
+    """Plates, grips and pressure on spheres, updated every few steps."""
 
     built: SphereModel
     saves_anywhere = False
@@ -114,7 +114,7 @@ class SphereRig(TestRig):
         self._take_up()
 
     def _take_up(self) -> None:
-        """Take what goes with the scene."""
+        """Load the state that belongs to the scene."""
         self._now = _State(**self.built.memory.get(_STATE, {}))
         self._curve = Curve.from_array(np.array(self._now.rows))
         if not self.solid:
@@ -124,21 +124,21 @@ class SphereRig(TestRig):
 
     @property
     def record(self) -> Curve:
-        """The record so far."""
+        """The present record."""
         return self._curve
 
     @property
     def confinement(self) -> float | None:
-        """Lateral pressure that was asked for [Pa], None without."""
+        """Requested confining pressure [Pa]; None without."""
         return self._now.confinement
 
     @property
     def diverged(self) -> bool:
-        """Whether a number is not finite any more."""
+        """Whether a number is no longer finite."""
         return self._now.diverged
 
     def scales(self) -> Scales:
-        """What the loading rate follows from, of the contacts alone."""
+        """Return the quantities that determine the loading rate, from the contacts only."""
         specimen, mean = self.built.specimen, self.built.laws.mean
         inputs = (
             contact_modulus(mean("normal_stiffness"), specimen.mean_diameter),
@@ -166,10 +166,9 @@ class SphereRig(TestRig):
         return bond_strengths(strengths, bonds.areas, pairs, len(self.built.specimen.radii))
 
     def unbalanced(self) -> float:
-        """Largest resultant on what is free to move over the mean contact force [-].
+        """Return the ratio of the largest resultant on free spheres to the mean contact force [-].
 
-        YADE's own ratio counts the reactions of grips, too; it serves to get the mean contact
-        force.
+        YADE's own ratio also counts the reactions of grips; it is used for the mean contact force.
         """
         largest, free = 0.0, 0.0
         axes = list(enumerate("xyz"[: self.built.axis + 1]))
@@ -293,7 +292,7 @@ class SphereRig(TestRig):
         self.built.remember()
 
     def _look(self) -> None:
-        """Let the pressure follow the sides and add a row to the record."""
+        """Update the pressure on the sides and add a row to the record."""
         self._now.looks += 1
         lateral = 0.0
         if self.confinement is not None:

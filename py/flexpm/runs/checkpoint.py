@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checkpoints of a run in its folder: saved now and then, resumed to the same bits.
+"""Checkpoints of a run in its folder: saved at intervals, resumed to the same bits.
 
-``checkpoint.json`` names the inputs of the run, its stage, and the file of YADE's scene that goes
-with it. It is replaced after that file is whole, so a kill at any time leaves a pair that fits. It
-holds a checksum of both files: what a disk or an editor has changed is refused, not computed with.
-The folder is locked against other processes as long as the checkpoint is in use.
+``checkpoint.json`` names the inputs of the run, its stage, and the file of YADE's scene. It is
+replaced after the scene's file is complete, so that a kill at any time leaves a consistent pair. It
+has a checksum of both files: a file that a disk or an editor has changed is rejected. The folder is
+locked against other processes as long as the checkpoint is in use.
 """
 
 from __future__ import annotations
@@ -86,15 +86,15 @@ class Position:
 
 
 class Checkpoint:
-    """What a run needs to go on from where it was, in its folder.
+    """State that a run needs to resume, in its folder.
 
     Attributes:
-        position: How far the run has come.
+        position: Progress of the run.
         interval: Wall time between two checkpoints [s].
-        resumed_at: Step at which an earlier run was taken up, or None.
-        packing: Checksum of the specimen's file beside it; empty if none is kept.
-        told: What is saved beside: state of the frames, and the calls of a script's own test.
-        telling: Returns it when the checkpoint is saved; None: nothing is saved beside.
+        resumed_at: Step at which an earlier run was resumed, or None.
+        packing: Checksum of the specimen's file in the folder; empty without a file.
+        told: Additional content: state of the frames, and the calls of a custom test.
+        telling: Function that returns this content when the checkpoint is saved; None: no content.
     """
 
     def __init__(self, folder: Path, spec: Determined, interval: float = INTERVAL) -> None:
@@ -102,11 +102,11 @@ class Checkpoint:
 
         Args:
             folder: Folder of the run's files; it exists.
-            spec: All that determines the run.
+            spec: All inputs that determine the run.
             interval: Wall time between two checkpoints [s], > 0.
 
         Raises:
-            InputError: if the folder holds a checkpoint of other inputs or a damaged one.
+            InputError: if the folder has a checkpoint of other inputs or a damaged checkpoint.
             BusyError: if another process uses the folder.
         """
         require_number("run: checkpoint_interval", interval, POSITIVE, "s")
@@ -125,7 +125,7 @@ class Checkpoint:
 
     @property
     def found(self) -> bool:
-        """Whether the folder holds a scene of this run to go on from."""
+        """Whether the folder has a scene from which this run can resume."""
         return self._scene is not None
 
     @property
@@ -134,10 +134,10 @@ class Checkpoint:
         return time.monotonic() - self._saved > max(self.interval, PAUSE * (self._took - 1.0))
 
     def restore(self) -> None:
-        """Replace YADE's scene by the saved one.
+        """Replace YADE's scene by the saved scene.
 
         Raises:
-            InputError: if another build has written it, or an engine is none of a test.
+            InputError: if another build has written it, or an engine does not belong to a test.
         """
         assert self._scene is not None
         load_scene(self._scene)
@@ -172,7 +172,7 @@ class Checkpoint:
         self._remove_others(scene)
 
     def release(self) -> None:
-        """Let other processes into the folder."""
+        """Unlock the folder for other processes."""
         self._lock.release()
 
     def _about(self, scene: Path) -> Table:
@@ -221,10 +221,10 @@ class Checkpoint:
 
 
 def load_scene(scene: Path) -> None:
-    """Replace YADE's scene by a saved one, whose checksum has been looked at.
+    """Replace YADE's scene by a saved scene whose checksum has been verified.
 
     Raises:
-        InputError: if another build has written it, or an engine is none of a test.
+        InputError: if another build has written it, or an engine does not belong to a test.
     """
     try:
         yade.O.load(str(scene))
@@ -244,11 +244,11 @@ def load_scene(scene: Path) -> None:
 
 
 def discard_unusable(folder: Path, spec: RunSpec) -> str:
-    """Remove a checkpoint that a run cannot go on from: damaged, of other inputs or another build.
+    """Remove a checkpoint that a run cannot resume: damaged, of other inputs or another build.
 
-    Results of another run are removed, too; those of another program stay.
+    Results of another run are also removed; results of another program stay.
 
-    YADE's scene is empty afterwards if there was one to go on from.
+    YADE's scene is empty afterwards if the checkpoint was usable.
 
     Returns:
         Why it could not be used, or an empty text.
@@ -275,7 +275,7 @@ def discard_unusable(folder: Path, spec: RunSpec) -> str:
 
 
 def _content(file: Path) -> Table:
-    """What checkpoint.json holds."""
+    """Return the content of checkpoint.json."""
     try:
         content = read_json(file)
     except (OSError, ValueError, RecursionError) as error:
@@ -286,7 +286,7 @@ def _content(file: Path) -> Table:
 
 
 def _require_entries(file: Path, content: Table) -> None:
-    """Check that each entry is there, of the right type and range."""
+    """Check that each entry exists, with the right type and range."""
     rules: dict[str, Callable[[object], bool]] = {
         "scene": _is_scene,
         "stage": lambda stage: _is_count(stage) and stage <= _MOST_STAGES,
@@ -330,7 +330,7 @@ def _no_checkpoint(file: Path, error: Exception) -> InputError:
 
 
 def _checksum(about: Mapping[str, object], scene: Path) -> str:
-    """Checksum of a scene and of what checkpoint.json says about it."""
+    """Return the checksum of a scene and of its description in checkpoint.json."""
     with scene.open("rb") as file:
         digest = hashlib.file_digest(file, "sha256")
     digest.update(json.dumps(about, sort_keys=True).encode())
@@ -338,7 +338,7 @@ def _checksum(about: Mapping[str, object], scene: Path) -> str:
 
 
 def _build(spec: Determined) -> Table:
-    """What a scene depends on beside the inputs of its run: another build differs in it."""
+    """Return the properties of the build on which a scene depends, besides the run's inputs."""
     return {
         "flexpm": __version__,
         "yade": yade.config.version,
@@ -348,7 +348,7 @@ def _build(spec: Determined) -> Table:
 
 
 def _flat(inputs: Table) -> Table:
-    """Inputs by one name each: that of the field, or ``material`` and the name of the parameter."""
+    """Return inputs by one name each: the field, or ``material`` and the name of the parameter."""
     inputs = dict(inputs)
     specimen, material = inputs.pop("specimen"), inputs.pop("material")
     law = {f"material {key}": value for key, value in law_of(material).items()}

@@ -88,14 +88,14 @@ class RunSpec(RunInputs):
     def asked(
         cls, test: str, specimen: AnySpec, material: Material, options: Mapping[str, object]
     ) -> RunSpec:
-        """Describe a run by its options alone.
+        """Describe a run by its options only.
 
         Args:
             test: Name of the test.
-            specimen: What the specimen is made from.
+            specimen: Description of the specimen.
             material: The material, with all changes.
-            options: Values by the names of ``input_names.SIMULATION``; one that is left out has its
-                default, and so have those that follow from the test if they are None.
+            options: Values by the names of ``input_names.SIMULATION``. A missing option has its
+                default. If None, an option that follows from the test has its default, too.
 
         Raises:
             InputError: for another name, or a value out of range.

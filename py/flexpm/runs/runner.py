@@ -35,13 +35,13 @@ class Span(NamedTuple):
 
 
 class Runner:
-    """Runs the stages of a test one after the other; a resumed run skips those that are over.
+    """Runs the stages of a test one after the other; a resumed run skips finished stages.
 
-    All that a stage needs to go on is in YADE's scene or its `position`.
+    YADE's scene and `position` have all data that a stage needs to continue.
 
     Attributes:
-        position: How far the run has come.
-        stages: How many stages have been asked for.
+        position: Progress of the run.
+        stages: Number of stages that have been requested.
     """
 
     def __init__(
@@ -51,14 +51,14 @@ class Runner:
         foresee: Foresee | None = None,
         position: Position | None = None,
     ) -> None:
-        """Go on from a position, that of the checkpoint unless it is given.
+        """Start from a position, by default the position of the checkpoint.
 
         Args:
             checkpoint: Where the scene is saved; None saves nothing.
-            progress: Called with (steps done, steps expected, text).
-            foresee: Called once, when steps of the loading have been timed.
-            position: Where the run stands, which the checkpoint saves from now on. One at the end
-                of a stage passes that stage.
+            progress: Function that is called with (steps done, steps expected, text).
+            foresee: Function that is called once, when steps of the loading have been timed.
+            position: Position of the run, which the checkpoint saves from now on. A position at the
+                end of a stage skips that stage.
         """
         self._checkpoint, self._progress, self._foresee = checkpoint, progress, foresee
         if checkpoint is not None and position is not None:
@@ -87,8 +87,8 @@ class Runner:
             prepare: Sets the scene up for the stage; called once, not when the stage is resumed.
 
         Returns:
-            Whether there are steps to do: False for a stage that an earlier start has finished, or
-            one without steps, after which a slower loading begins.
+            Whether steps remain: False for a stage that an earlier start has finished, or a stage
+            without steps, after which a slower loading begins.
         """
         number, position = self.stages + 1, self.position
         if position.stage < number:
@@ -101,7 +101,7 @@ class Runner:
 
     @property
     def is_between(self) -> bool:
-        """Whether the stages so far are over and the next one has not begun."""
+        """Whether all stages until now are over and the next stage has not begun."""
         return self.position.stage == self.stages
 
     def run(
@@ -115,14 +115,14 @@ class Runner:
     ) -> None:
         """Run to the end of the stage, or until it is over.
 
-        An interruption saves a checkpoint before it goes on to the caller.
+        An interruption saves a checkpoint before it reaches the caller.
 
         Args:
-            step: Does a step.
-            over: Whether the stage is over before its end.
-            text: Tells how the test stands.
-            save: The scene may be saved after any step.
-            foreseen: Tell how long the run, which this stage ends, will probably take.
+            step: Function that does a step.
+            over: Function that returns whether the stage is over before its end.
+            text: Function that returns the state of the test.
+            save: Whether the scene may be saved after any step.
+            foreseen: Function that reports the expected time of the run, which this stage ends.
 
         Raises:
             RuntimeError: if an engine has failed.
@@ -148,11 +148,11 @@ class Runner:
             raise
 
     def reload(self) -> None:
-        """Save the scene and go on from it as a file would give it back.
+        """Save the scene and continue from it as if it had been read from a file.
 
-        YADE does not save the order of its interactions and what its collider has found. A run
-        that depends on these has the same bits whether it is killed or not only if it loads its
-        scene at each checkpoint, and has its checkpoints at fixed steps.
+        YADE does not save the order of its interactions and the state of its collider. If a run
+        depends on these, its bits are independent of interruptions only if it reloads its scene at
+        each checkpoint, and has its checkpoints at fixed steps.
         """
         self.save()
         yade.O.saveTmp(_MARK, quiet=True)
@@ -167,14 +167,14 @@ class Runner:
 
     @property
     def _is_behind(self) -> bool:
-        """Whether it is time to write the tables so far; scenes that are not saved have them."""
+        """Whether it is time to write the present tables, for scenes that are not saved."""
         if self._checkpoint is None:
             return False
         pause = max(self._checkpoint.interval, PAUSE * (self._took - 1.0))
         return time.perf_counter() - self._left > pause
 
     def _leave(self) -> None:
-        """Write the tables so far."""
+        """Write the present tables."""
         if self.leave is None:
             return
         begin = time.perf_counter()
@@ -195,7 +195,7 @@ class Runner:
             self._spans.append((time.perf_counter() - begin) / (number - first))
 
     def _tell_expected(self) -> None:
-        """Tell where the stage will probably end and when, by the steps that were last."""
+        """Report where the stage will probably end and when, from the pace of the last steps."""
         likely = self.position.stage_likely
         left = likely - yade.O.iter
         if self._foresee is not None and left > 0:

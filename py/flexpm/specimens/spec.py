@@ -47,29 +47,29 @@ _MEMORY = 3_000
 
 @dataclass(frozen=True)
 class SpecimenSpec:
-    """Shape, size and packing of a specimen, or checksums of what was given instead of a packing.
+    """Shape, size and packing of a specimen, or checksums of given discs or cells.
 
     Attributes:
         kind: ``rectangle``, ``disc``, ``polygon`` or ``half-disc``.
         width: Width of a rectangle [m]; if None its default, and None for another shape.
         height: Height of a rectangle, along the axis of the test [m]; None as for `width`.
-        diameter: Diameter of a disc or half of one [m]; None as for `width`.
-        thickness: Out of plane [m].
+        diameter: Diameter of a disc or half a disc [m]; None as for `width`.
+        thickness: Thickness out of plane [m].
         diameters: Smallest and largest diameter of the packed discs [m]; None for given discs.
-        porosity: Sets the number of packed discs [-]; None for given discs.
+        porosity: Ratio that sets the number of packed discs [-]; None for given discs.
         seed: Seed of the packing; None for given discs.
-        short_edge: Edges of cells below this share of the mean diameter are collapsed [-].
+        short_edge: Ratio to the mean diameter below which edges of cells are collapsed [-].
         discs: Checksum of given discs; None for a packing.
-        outline: Checksum of the outline of given discs or cells, or of one that was sawn out of a
-            packing; None for a packed rectangle or disc.
-        cells: Checksum of given cells; None if cells are those of the discs.
-        joints: Checksum of the lines of joints; None if there are none.
-        joint_names: Names of the joints; None if there are none.
-        strengths: Checksum of the factors of the contacts' strengths; None if they are alike.
-        minerals: Checksum of given minerals of the grains; None if there are none.
-        networks: Fracture networks whose traces are among the joints, as tables that draw them
-            again; None if there are none.
-        joint_origin: Point of a map of joints that lies at the specimen's origin [m]; None: none.
+        outline: Checksum of the outline of given discs or cells, or of an outline that was cut out
+            of a packing; None for a packed rectangle or disc.
+        cells: Checksum of given cells; None for cells of the discs.
+        joints: Checksum of the lines of joints; None without joints.
+        joint_names: Names of the joints; None without joints.
+        strengths: Checksum of the strength factors of the contacts; None if all factors are 1.
+        minerals: Checksum of given minerals of the grains; None without given minerals.
+        networks: Fracture networks whose traces are among the joints, as tables that generate them
+            again; None without networks.
+        joint_origin: Point of a map of joints at the specimen's origin [m]; None without a map.
     """
 
     kind: str = "rectangle"

@@ -71,13 +71,13 @@ Input = tuple[str, object, str, str]
 def write_page(
     folder: Path, result: Result, inputs: Iterable[Input], commands: Sequence[tuple[str, str]]
 ) -> Path:
-    """Write the page of a run.
+    """Write the report of a run.
 
     Args:
         folder: Folder of the run, with specimen.vtu.
         result: The run.
-        inputs: What was asked for.
-        commands: What repeats it.
+        inputs: Requested inputs.
+        commands: Commands that repeat it.
 
     Returns:
         The file.
@@ -107,13 +107,13 @@ def write_page(
 def write_own_page(
     folder: Path, result: Result, inputs: Iterable[Input], commands: Sequence[tuple[str, str]]
 ) -> Path:
-    """Write the page of a script's own test, which has no state from before it.
+    """Write the report of a custom test, which has no initial state.
 
     Args:
         folder: Folder of the test, with its pictures.
         result: The test.
-        inputs: What specimen and model are.
-        commands: What repeats it.
+        inputs: Description of specimen and model.
+        commands: Commands that repeat it.
 
     Returns:
         The file.
@@ -140,7 +140,7 @@ def write_own_page(
 def _tables(
     folder: Path, result: Result, inputs: Iterable[Input], *first: Rows | None
 ) -> list[Rows]:
-    """Tables of a page, those that have rows: its own ones first, then what each page has."""
+    """Return all tables with rows: first the tables of this page, then the common tables."""
     file = FINISHED if (folder / FINISHED).is_file() else SO_FAR
     others = (_pairs_table(result), emission_table(result), inputs_table(inputs, file=file))
     return [one for one in (*first, *others) if one]
@@ -195,12 +195,12 @@ def _told_value(value: object) -> str:
 
 
 def versions(result: Result) -> str:
-    """What computed the run."""
+    """Return the versions of the programs that computed the run."""
     return f"Computed by flexpm {result.flexpm} with YADE {result.yade}."
 
 
 def cite(version: str) -> list[str]:
-    """What a work that uses results of flexpm names."""
+    """Return the references that a publication with results of flexpm should cite."""
     code = f"The flexpm developers: flexpm, a flexible particle model of rock for YADE, {version}."
     return [code, _PAPER, "V. Smilauer et al.: Yade documentation. https://yade-dem.org"]
 
@@ -262,7 +262,7 @@ def run_map(
 
 
 def _state_after(folder: Path, before: AnySnapshot) -> SolidSnapshot | None:
-    """Last state of a solid; None if its file is gone, damaged or another solid's."""
+    """Return the last state of a 3D specimen; None if its file is missing, damaged or different."""
     if not isinstance(before, SolidSnapshot):
         return None
     try:
@@ -305,7 +305,7 @@ def inputs_table(inputs: Iterable[Input], title: str = "Inputs", file: str = FIN
 
 
 def _reading(result: Result) -> str:
-    """How far numbers of a test are those of the rock."""
+    """Return a sentence on the validity of the numbers for the rock."""
     if not kind_of(result.test).quasi_static:
         return ""
     lines = ["Fragments are counted as the test ends, in mid-fall: at rest there are fewer."]
@@ -319,7 +319,7 @@ def _reading(result: Result) -> str:
 
 
 def _pairs_table(result: Result) -> Rows | None:
-    """Softened and cracked points of each pair of minerals; None if grains are alike."""
+    """Return softened and cracked points of each pair of minerals; None without minerals."""
     cracked, softened = result.cracks_by_pair or {}, result.softened_by_pair or {}
     none = dict.fromkeys(MODES.values(), 0)
     rows = [
@@ -338,7 +338,7 @@ def _pairs_table(result: Result) -> Rows | None:
 
 
 def _rates_table(result: Result) -> Rows | None:
-    """Loadings of a test whose rate was halved; None of one that was loaded once."""
+    """Return the loadings of a test whose rate was halved; None for a single loading."""
     if not result.rates:
         return None
     rows, before = [], None
@@ -355,7 +355,7 @@ def _rates_table(result: Result) -> Rows | None:
 
 
 def _networks_table(result: Result) -> Rows | None:
-    """P21 of each set of a fracture network; None if there is none."""
+    """Return the P21 of each set of a fracture network; None without a network."""
     if not result.networks:
         return None
     keys = ("target", "generated", "cut")

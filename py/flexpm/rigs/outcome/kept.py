@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The folder of a script's own test while it goes on: its files grow, and a killed one is taken up.
+"""Folder of a custom test while it runs: its files grow, and a stopped test resumes from there.
 
-The script makes the same calls again. What an earlier start has finished is passed, the stage that
-was under way goes on. SI units.
+The script makes the same calls again. Finished calls are skipped, and the interrupted stage
+continues. SI units.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ _NO_STATE = ("ompThreads", "stepsToCome", "label", "bodyIds")
 
 
 class Leaves(TypedDict, total=False):
-    """What a script's own test leaves, see `flexpm.rig`."""
+    """Output of a custom test, see `flexpm.rig`."""
 
     out: Path | str | None
     frames: int
@@ -59,24 +59,24 @@ class Leaves(TypedDict, total=False):
 
 
 class Terminated(BaseException):
-    """The process was asked to end by SIGTERM while a test was under way."""
+    """SIGTERM has ended the process during a test."""
 
 
 class KeptTest:
-    """A script's own test with a folder.
+    """A custom test with a folder.
 
     Attributes:
         runner: Steps the test and saves checkpoints.
-        calls: What the script has asked for.
+        calls: Calls of the script.
     """
 
     def __init__(
         self, built: Model | SphereModel, folder: Path | str, output: Output, interval: float
     ) -> None:
-        """Take up what is in the folder, or begin there.
+        """Resume from the folder, or begin there.
 
         Raises:
-            InputError: if the folder holds something else, or the scene has gone on already.
+            InputError: if the folder has other content, or the scene has already advanced.
             BusyError: if another process uses the folder.
         """
         close_open()
@@ -173,7 +173,7 @@ class KeptTest:
             self._frames(rig)
 
     def before(self, name: str) -> None:
-        """A call begins: what has changed since the last one was not asked of the rig."""
+        """Begin a call; changes since the last call did not come from the rig."""
         rig = self._rig()
         assert rig is not None
         last = self.calls.made[-1]["call"]
@@ -185,7 +185,7 @@ class KeptTest:
         self._stop = _catch_term()
 
     def after(self, name: str, error: BaseException | None) -> None:
-        """A call has ended: write what has come of it."""
+        """End a call: write its outcome."""
         self._stop()
         rig = self._rig()
         assert rig is not None
@@ -201,7 +201,7 @@ class KeptTest:
             os.kill(os.getpid(), signal.SIGTERM)
 
     def close(self) -> None:
-        """Draw what the test has come to, and let other processes in."""
+        """Make pictures and report of the test, and unlock its folder."""
         if self in _open:
             _open.remove(self)
         self.draw()
@@ -209,7 +209,7 @@ class KeptTest:
         self._checkpoint.release()
 
     def draw(self) -> None:
-        """Draw pictures and page of what has been written last."""
+        """Make pictures and report from the last written files."""
         rig = self._rig()
         broken = _broken()
         if rig is not None and _is_there(rig) and yade.O.iter != self._done[0]:
@@ -228,14 +228,14 @@ class KeptTest:
             write_report(self._folder, result)
 
     def _is_behind(self, rig: TestRig, broken: str) -> bool:
-        """Whether the files say something else than how the script has ended."""
+        """Whether the files disagree with the end of the script."""
         if not _is_there(rig) or self.calls.missing:
             return False
         left = self._ended or self._resumed_at is not None or _mark(rig) != self._mark
         return bool(left or broken) and len(rig.stages) > 0
 
     def _tell(self) -> Table:
-        """What goes with a checkpoint; the numbers so far are written with it."""
+        """Return the additional content of a checkpoint; the present numbers are also written."""
         rig = self._rig()
         assert rig is not None
         if self.calls.inside and rig.saves_anywhere:
@@ -318,13 +318,13 @@ _open: list[KeptTest] = []
 
 @atexit.register
 def close_open() -> None:
-    """Draw what tests have come to whose script has ended, or goes on with another one."""
+    """Make pictures of tests whose script has ended, or has begun another test."""
     for test in [*_open]:
         test.close()
 
 
 def _mark(rig: TestRig) -> bytes:
-    """What a script could change between two calls, as a checksum."""
+    """Return a checksum of all that a script could change between two calls."""
     built = rig.built
     known: list[object] = [
         *(yade.O.iter, yade.O.dt, len(yade.O.bodies), built.damping, rig.diverged),
@@ -366,7 +366,7 @@ def _line(error: BaseException) -> str:
 
 
 def _catch_term() -> Callable[[], None]:
-    """Let SIGTERM raise an exception between two steps; returns what undoes it."""
+    """Make SIGTERM raise an exception between two steps; return a function that undoes this."""
     main = threading.current_thread() is threading.main_thread()
     if not main or signal.getsignal(signal.SIGTERM) != signal.SIG_DFL:
         return _nothing

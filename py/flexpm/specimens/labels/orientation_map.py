@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Maps of crystal orientations: phases, orientations and places of measured points."""
+"""Maps of crystal orientations: phases, orientations and positions of measured points."""
 
 from __future__ import annotations
 
@@ -34,15 +34,15 @@ class Phase:
 
 @dataclass(frozen=True)
 class Grid:
-    """Where the points of a map lie.
+    """Positions of the points of a map.
 
     Attributes:
-        raster: Point of each pixel, the first row on top; from the number of points on: a point
-            that was not measured.
+        raster: Point of each pixel, the first row at the top; an index from the number of points on
+            stands for a point that was not measured.
         sides: Width and height of a pixel [m].
         shape: Number of columns, of the longest row, and of rows.
         missing: Number of points that were not measured.
-        unlike_head: What differs from the file's head, by its name: ``steps``, ``grid``, ``cells``.
+        unlike_head: Differences from the file's head, by name: ``steps``, ``grid``, ``cells``.
     """
 
     raster: IntArray
@@ -59,12 +59,12 @@ class Grid:
 
 @dataclass(frozen=True)
 class Head:
-    """What the head of a file says of the grid.
+    """Description of the grid in the head of a file.
 
     Attributes:
-        steps: Between columns and between rows [m]; None: it does not say.
-        hexagonal: Whether each second row begins half a step aside; None: it does not say.
-        shape: Number of columns, of the longest row, and of rows; None: it does not say.
+        steps: Steps between columns and between rows [m]; None: not given.
+        hexagonal: Whether each second row begins half a step aside; None: not given.
+        shape: Number of columns, of the longest row, and of rows; None: not given.
         keys: Names of both numbers in the file, for messages.
     """
 
@@ -79,11 +79,11 @@ class OrientationMap:
     """Measured points on a grid.
 
     Attributes:
-        phases: What phases there are.
-        phase: Index of the phase of each point, -1 where none was found.
+        phases: The phases.
+        phase: Index of the phase of each point, -1 without a phase.
         orientations: Quaternions, (n, 4).
-        grid: Where they lie, with a point for each pixel.
-        missing: How many of the points, the last ones, were not measured.
+        grid: Positions of the points, with a point for each pixel.
+        missing: Number of points, the last ones, that were not measured.
     """
 
     phases: list[Phase]
@@ -101,7 +101,7 @@ class OrientationMap:
     def of(
         cls, phases: list[Phase], phase: IntArray, orientations: FloatArray, grid: Grid
     ) -> OrientationMap:
-        """A map that gets a point without a phase wherever none was measured."""
+        """Return a map with an additional point without a phase at each unmeasured position."""
         none = np.tile([0.0, 0.0, 0.0, 1.0], (grid.missing, 1))
         return cls(
             phases,
@@ -119,7 +119,7 @@ def is_hexagonal(x: FloatArray, step: float) -> bool:
 
 
 def _steps_of(x: FloatArray, y: FloatArray) -> tuple[float, float] | None:
-    """Steps along x and y that points themselves have, in their unit; None if there are none."""
+    """Return the steps along x and y between the points, in their unit; None without steps."""
     along = np.diff(x)[np.diff(y) == 0.0]
     along = np.abs(along[along != 0.0])
     ways = (np.unique(x), np.unique(y))
@@ -139,7 +139,7 @@ def _steps_of(x: FloatArray, y: FloatArray) -> tuple[float, float] | None:
 
 
 def _unlike(steps: tuple[float, float], hexagonal: bool, head: Head) -> dict[str, str]:
-    """What of a grid differs from the head: its kind, or its steps [m]."""
+    """Return the differences between a grid and the head: its type, or its steps [m]."""
     found = {}
     kinds = {True: "hexagonal", False: "square"}
     same = head.steps is not None and np.allclose(steps, head.steps, rtol=1e-3, atol=0.0)
@@ -182,7 +182,7 @@ class MapText:
         return InputError(f"{self._name}{place}: {why}")
 
     def number(self, what: str, text: str, line: int) -> float:
-        """A finite number of a line; a decimal comma is one, too."""
+        """Return a finite number of a line; a decimal comma is also accepted."""
         try:
             value = float(text.replace(",", "."))
         except ValueError:
@@ -272,16 +272,16 @@ class MapText:
         return columns, rows
 
     def grid(self, x: FloatArray, y: FloatArray, head: Head) -> Grid:
-        """Grid of the points, by the steps of the head or, if these do not fit, by their own.
+        """Return the grid of the points: steps of the head or, if these do not fit, of the points.
 
         Args:
-            x: To the right [um].
-            y: Downwards [um].
-            head: What the head says of the grid.
+            x: Coordinate to the right [um].
+            y: Coordinate downwards [um].
+            head: Description of the grid in the head.
 
         Raises:
-            InputError: for points that are on no grid, twice at one position, or fewer columns or
-                rows than the head says.
+            InputError: for points that are not on a grid, two points at one position, or fewer
+                columns or rows than in the head.
         """
         steps, reason = (
             head.steps,
@@ -311,9 +311,9 @@ class MapText:
         return self._counted(found, steps, head)
 
     def _counted(self, found: Grid, steps: tuple[float, float], head: Head) -> Grid:
-        """Compare the number of columns and rows with that of the head.
+        """Compare the numbers of columns and rows with the head.
 
-        A map that was thinned has fewer of both and still extends as far.
+        A map that was thinned has fewer of both and still has the same extent.
         """
         if head.shape is None or head.shape == found.shape:
             return found
