@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files: output is whole or absent, input is read up to a largest size.
+"""Files: output is complete or absent, input is read up to a largest size.
 
 Plain files are written under a temporary name, then renamed. A folder that a process writes to for
-long is locked, so that no second one does the same.
+long is locked, so that no second process does the same.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def whole_file(path: Path | str) -> Iterator[Path]:
 
 
 def _replaced(path: Path) -> Path | None:
-    """The plain file, there or not yet, that takes what is written to `path`; None if none does."""
+    """Return the plain file, existing or new, to which `path` leads; None if it is not plain."""
     try:
         found = path.stat()
     except FileNotFoundError:
@@ -98,7 +98,7 @@ def _replaced(path: Path) -> Path | None:
 
 
 def _stream_of(found: os.stat_result) -> int | None:
-    """Standard output or error, if that is what a path leads to: it goes on where it is."""
+    """Return standard output or error if a path leads to it; writing continues at its position."""
     for number in (1, 2):
         with contextlib.suppress(OSError):
             if os.path.samestat(os.fstat(number), found):
@@ -119,16 +119,16 @@ def _pour(temporary: Path, path: Path) -> None:
 
 
 def remove_earlier(path: Path | str) -> None:
-    """Remove a file of an earlier run; what is no plain file stays."""
+    """Remove a file of an earlier run; only plain files are removed."""
     if Path(path).is_file():
         Path(path).unlink(missing_ok=True)
 
 
 def require_writable(path: Path) -> bool:
-    """Check that a file can be written, before the work is done; whether it is a plain one.
+    """Check that a file can be written before the work begins; return whether it is a plain file.
 
     Raises:
-        InputError: if it is a socket, or its folder refuses a file.
+        InputError: if it is a socket, or its folder does not accept a file.
         OSError: if it is a folder.
     """
     target = _replaced(path)
@@ -138,14 +138,14 @@ def require_writable(path: Path) -> bool:
 
 
 def write_parts(path: Path | str, parts: Iterable[bytes | memoryview]) -> None:
-    """Write a file part by part, whole or not at all; a part is made when its turn has come."""
+    """Write a file part by part, completely or not at all; each part is made when it is due."""
     with whole_file(path) as temporary, temporary.open("wb") as file:
         file.writelines(parts)
 
 
 @contextlib.contextmanager
 def scratch_beside(path: Path | str) -> Iterator[Path]:
-    """Yield the name of a temporary file beside `path`, which is gone after the block."""
+    """Yield the name of a temporary file next to `path`, which is removed after the block."""
     path = Path(path)
     target = _replaced(path)
     scratch = _beside(target or Path(tempfile.gettempdir(), path.name))
@@ -174,7 +174,7 @@ def require_room(path: Path, size: int) -> None:
 
 
 def lines_of(path: Path, longest: int) -> Iterator[bytes]:
-    """Lines of a file, longer ones in parts of so many bytes."""
+    """Yield the lines of a file; longer lines in parts of `longest` bytes."""
     with path.open("rb") as file:
         while line := file.readline(longest):
             yield line
@@ -285,10 +285,10 @@ def load_toml(path: Path, what: str) -> Table:
 
     Args:
         path: The file.
-        what: What it is, for messages.
+        what: Type of the file, for messages.
 
     Raises:
-        InputError: if it cannot be read or is no valid TOML.
+        InputError: if it cannot be read or is not valid TOML.
     """
     try:
         return tomllib.loads(read_text(path))
@@ -324,14 +324,14 @@ def load_csv(path: Path, what: str) -> tuple[list[str], list[list[str]]]:
 
 
 def load_json(path: Path, what: str) -> Table:
-    """Read a JSON file that holds a table of finite numbers.
+    """Read a JSON file with a table of finite numbers.
 
     Args:
         path: The file.
-        what: What it is, for messages.
+        what: Type of the file, for messages.
 
     Raises:
-        InputError: if it cannot be read or holds something else.
+        InputError: if it cannot be read or has other content.
     """
     reason = ""
     try:
@@ -351,7 +351,7 @@ def output_folder(path: Path | str) -> Path:
     """Make the folder `path` if it does not exist and check that files can be written there.
 
     Raises:
-        InputError: if it cannot be made, is no folder, or refuses a file.
+        InputError: if it cannot be made, is not a folder, or does not accept a file.
     """
     path = Path(path)
     try:
@@ -419,7 +419,7 @@ class FolderLock:
         return made
 
     def release(self) -> None:
-        """Let other processes in, whatever still refers to the lock in this one."""
+        """Unlock the folder for other processes, even if this process still refers to the lock."""
         self._held.pop(self._place, None)
         if self._finalizer is not None:
             self._finalizer()
@@ -459,5 +459,5 @@ def _unlock(file: Path, handle: int, owner: int) -> None:
 
 
 def _beside(path: Path) -> Path:
-    """A name beside `path` that nobody has."""
+    """Return an unused name next to `path`."""
     return path.with_name(f"{_TEMPORARY}{path.stem}-{secrets.token_hex(8)}{path.suffix}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks of what users give: each refusal is one line with quantity, value and rule. SI units."""
+"""Checks of users' values: each error is one line with quantity, value and rule. SI units."""
 
 from __future__ import annotations
 
@@ -56,9 +56,9 @@ def require_number(
 
     Args:
         label: Name of the quantity.
-        value: What was given.
+        value: Value of the user.
         bounds: Its range.
-        unit: For the message; empty for a number without one.
+        unit: Unit for the message; empty for a number without a unit.
         shown: How the value is quoted, if not as Python would.
     """
     text = f"{label} = {shown or quoted(value)} {unit}".rstrip()
@@ -141,8 +141,8 @@ def require_file_name(label: str, value: object, suffixes: Sequence[str] = ()) -
 
     Args:
         label: Name of the quantity.
-        value: What was given.
-        suffixes: One of them ends the name; none: any end.
+        value: Value of the user.
+        suffixes: Permitted suffixes of the name; none: any suffix.
     """
     name = require_text(label, value)
     plain = name.isprintable() and not set(name) & {"/", "\\", "\0"} and not name.startswith(".")
@@ -188,7 +188,7 @@ def _is_number(value: object, kind: type) -> bool:
 
 
 def _is_among(value: object, choices: Sequence[object]) -> bool:
-    """Whether `value` is one of the choices and of its kind: true is not 1, and no array is one."""
+    """Whether `value` is a choice and has its type: true is not 1, and an array is not a choice."""
     if not isinstance(value, str | numbers.Real):
         return value in choices if value is None else False
     return any(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What lines of joints cut, and which can cut nothing. Lengths in metres. Loads nothing heavy."""
+"""Lines of joints that cut, and lines that can cut nothing. Lengths in metres. No heavy imports."""
 
 from __future__ import annotations
 
@@ -22,18 +22,18 @@ _NOTHING = 1e-9
 
 @dataclass(frozen=True)
 class Cut:
-    """What came of the lines of a joint.
+    """Outcome of cutting the lines of a joint.
 
     Attributes:
-        lines: That were asked for.
-        idle: Those of them that cut nothing.
-        length: Length of all lines as they were asked for [m].
-        cut: Where they have made contacts of the joint [m].
-        taken: Where they lie on contacts that a joint had before [m].
-        outside: Outside of the specimen [m]. What is left ends within grains.
-        on: The joint on which most of `taken` lies; None: nothing was taken.
+        lines: Number of requested lines.
+        idle: Number of lines that cut nothing.
+        length: Length of all requested lines [m].
+        cut: Length along which they have made contacts of the joint [m].
+        taken: Length along contacts of an earlier joint [m].
+        outside: Length outside of the specimen [m]. The remaining length ends within grains.
+        on: The joint that has most of `taken`; None: nothing was taken.
 
-    Up to a tenth of a grain at the outline of what is cut may count as left.
+    Up to a tenth of a grain of the cut length at the outline may count as remaining length.
     """
 
     lines: int
@@ -80,10 +80,10 @@ _SUMS = ("lines", "idle", "length", "cut", "taken", "outside")
 
 
 def require_within(lines: Lines, low: Point, high: Point) -> None:
-    """Refuse lines that cannot be cut: far from a specimen's box, or too many of them within it.
+    """Reject lines that cannot be cut: far from a specimen's box, or too many of them within it.
 
     Raises:
-        InputError: for a point further away than 1e6 sizes, or more than 20 000 segments.
+        InputError: for a point farther away than 1e6 sizes, or more than 20 000 segments.
     """
     size = math.hypot(high[0] - low[0], high[1] - low[1])
     inside = 0
@@ -104,13 +104,13 @@ def require_within(lines: Lines, low: Point, high: Point) -> None:
 
 
 def require_any(cuts: Mapping[str, Cut], lines: Lines, low: Point, high: Point) -> None:
-    """Refuse a set of lines none of which cuts anything.
+    """Reject a set of lines of which no line cuts anything.
 
     Args:
-        cuts: What came of the lines.
+        cuts: Outcome of the cuts.
         lines: The lines, by joint.
         low: Lower left corner of the specimen's box [m].
-        high: Upper right one [m].
+        high: Upper right corner [m].
     """
     if any(one.cut > 0.0 for one in cuts.values()):
         return

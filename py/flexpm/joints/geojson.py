@@ -31,12 +31,12 @@ _DEEPEST = 50
 
 @dataclass(frozen=True)
 class JointMap:
-    """What was read from a map.
+    """Lines that were read from a map.
 
     Attributes:
-        lines: Lines of each joint, by its name, from the origin on [m].
-        origin: Point of the map that lies at the origin of the specimen [m].
-        notes: What a reader should know, a line each.
+        lines: Lines of each joint, by its name, relative to the origin [m].
+        origin: Point of the map at the origin of the specimen [m].
+        notes: Remarks for the user, a line each.
     """
 
     lines: Lines

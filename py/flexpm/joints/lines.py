@@ -28,12 +28,12 @@ Lines = dict[str, list[Line]]
 
 
 def read(path: Path) -> Lines:
-    """Read the segments of a CSV file; those of one name that follow each other are one line.
+    """Read the segments of a CSV file; consecutive segments with the same name form a line.
 
     A row without length repeats a point of its line, which counts once.
 
     Raises:
-        InputError: if it cannot be read, or a row is no segment.
+        InputError: if it cannot be read, or a row is not a segment.
     """
     name = f"joints = {str(path)!r}"
     found: Lines = {}
@@ -65,7 +65,7 @@ def read(path: Path) -> Lines:
 
 
 def _rows(name: str, path: Path) -> Iterator[tuple[int, list[str]]]:
-    """Line numbers and cells of rows, these in the order of ``COLUMNS``, then what is too much."""
+    """Yield line numbers and cells of rows, in the order of ``COLUMNS``, then surplus cells."""
     try:
         rows = csv_rows(read_text(path))
         columns = _filled(next(rows, (0, []))[1])
@@ -94,19 +94,19 @@ def _rows(name: str, path: Path) -> Iterator[tuple[int, list[str]]]:
 
 
 def _filled(row: list[str]) -> list[str]:
-    """Cells of a row up to the last one with content: spreadsheets fill rows with empty cells."""
+    """Return the cells of a row up to the last cell with content: spreadsheets add empty cells."""
     return row[: max((at for at, cell in enumerate(row, 1) if cell), default=0)]
 
 
 def checked(joints: object, *, excavations: bool = False) -> Lines:
-    """Lines of joints by name; a joint may be one line, rows x, y, or a list of lines.
+    """Return lines of joints by name; a joint may be one line, rows x, y, or a list of lines.
 
     Args:
         joints: The lines.
         excavations: Whether there may be lines of excavations among them.
 
     Raises:
-        InputError: for what is no line, and for a name that no joint may have.
+        InputError: for a value that is not a line, and for a name that no joint may have.
     """
     if not isinstance(joints, Mapping) or not joints:
         raise InputError(f"joints = {quoted(joints)}, must be lines by the name of their joint")
@@ -127,7 +127,7 @@ def checked(joints: object, *, excavations: bool = False) -> Lines:
 
 
 def check_name(name: object, where: str) -> None:
-    """Refuse what is no printable word, and a name that is reserved for excavations."""
+    """Reject a name that is not a printable word, and a name that is reserved for excavations."""
     if not isinstance(name, str) or not name.isprintable() or not name or set(name) & _NOT_IN_NAMES:
         raise InputError(
             f"{where} = {quoted(name)}, must be a name without spaces, dots, commas, quotes, "
@@ -141,7 +141,7 @@ def check_name(name: object, where: str) -> None:
 
 
 def _without_repeats(name: str, line: Sequence[Sequence[float]]) -> Line:
-    """A line whose points that are there twice in a row count once."""
+    """Return a line in which consecutive equal points count once."""
     points = [(float(x), float(y)) for x, y in line]
     found = points[:1] + [b for a, b in itertools.pairwise(points) if a != b]
     if len(found) < 2:

@@ -53,12 +53,12 @@ def carry_out(
 
     Args:
         plan: The run.
-        threads: Threads of a step.
-        progress: Called with (steps done, steps expected, text).
-        foresee: Called once a loading, as soon as steps of it have been timed, with the steps that
-            the run will probably have and the wall time of those that are left [s].
-        announce: Called with a line before a slower loading begins: what the last one gave and what
-            the next one will take.
+        threads: Number of threads of a step.
+        progress: Function that is called with (steps done, steps expected, text).
+        foresee: Function that is called once per loading, after steps of it have been timed, with
+            the expected number of steps and the wall time of the remaining steps [s].
+        announce: Function that is called with a line before a slower loading begins: result of the
+            last loading and expected cost of the next loading.
     """
     spec, folder, checkpoint = plan.spec, plan.folder, plan.checkpoint
     if folder is not None:
@@ -102,7 +102,7 @@ def _tested(
     start: LoadingStart,
     restore: Callable[[], None] | None,
 ) -> tuple[TestRig, Result]:
-    """Build the scene of a run, or take up one that was saved, and do what is left of the test."""
+    """Build the scene of a run, or load a saved scene, and do the remaining part of the test."""
     folder, output = plan.folder, plan.output
     yade.O.reset()
     specimen, material = prepared(spec, plan.specimen, plan.material)
@@ -153,7 +153,7 @@ def _leave(folder: Path, rig: TestRig, spec: RunSpec) -> None:
 
 
 def _frame_writer(plan: Plan, spec: RunSpec, restore: Callable[[], None] | None) -> FrameWriter:
-    """Frames of a run, which go on with those of the checkpoint that was taken up."""
+    """Return the frames of a run, which continue the frames of a resumed checkpoint."""
     assert plan.folder is not None
     resumed_at = yade.O.iter if restore is not None else None
     checkpoint, memory = plan.checkpoint, None
@@ -174,7 +174,7 @@ def _announce(
     progress: Progress | None,
     steps: int,
 ) -> None:
-    """Tell of a slower loading, by the progress where nobody else asks for it."""
+    """Announce a slower loading; without a function, by the progress."""
     if announce is not None:
         announce(line)
     elif progress is not None:
@@ -198,7 +198,7 @@ def _rig_of(built: Model | SphereModel, spec: RunSpec, runner: Runner) -> TestRi
 
 
 def _write_others(folder: Path, result: Result, output: Output, rig: TestRig) -> None:
-    """Write what can be left out: the page, the last frame, the film."""
+    """Write optional files: the report, the last frame, the film."""
     if output.report:
         write_report(folder, result)
     if isinstance(rig.watch, FrameWriter):
@@ -229,7 +229,7 @@ def _press(rig: TestRig, spec: RunSpec) -> None:
 
 
 def _slide(rig: TestRig, spec: RunSpec) -> None:
-    """Go on to the largest displacement, whatever the stress does."""
+    """Continue to the largest displacement at any stress."""
     way = spec.max_displacement
     strain = None if way is None else way / rig.scales().height
     rig.load(Loading(spec.rate, spec.loading, max_strain=strain, stop_ratio=0.0))

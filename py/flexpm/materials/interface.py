@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Interfaces: contacts of a pair of minerals whose law is not the one of mixing. SI units.
+"""Interfaces: contacts of a pair of minerals with a law other than the rule of mixing. SI units.
 
 A boundary between two minerals is often weaker, or stiffer, than both. A table ``[[interface]]``
-names the pair, which may be one mineral twice, and gives values of the contact's law or factors of
-what the rule of mixing gives (Deviation D27). What it does not name stays as it is, except a
-fracture energy: a factor of a strength multiplies the energy of the same mode by its square.
+names the pair, which may be one mineral twice, and has values of the contact's law or factors on
+the values of the rule of mixing (Deviation D27). Other values do not change, except fracture
+energies: a factor of a strength multiplies the energy of the same mode by its square.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _PREFIX = "interface."
 
 @dataclass(frozen=True)
 class Interface:
-    """What the contacts of a pair of minerals have of their own."""
+    """Values of the contacts of a pair of minerals that replace the rule of mixing."""
 
     pair: tuple[str, str]  #: names of the minerals, in the order of the alphabet
     values: Mapping[str, object] = field(default_factory=dict)  #: by key of the law
@@ -72,10 +72,11 @@ class Interface:
 
         Args:
             data: The table.
-            number: Its place, from 1, for messages.
+            number: Its position, from 1, for messages.
 
         Raises:
-            InputError: naming the key that is unknown, missing or out of range.
+            InputError: for a key that is unknown, missing or out of range; the message names the
+                key.
         """
         where = f"material [[interface]] {number}"
         values = require_table(where, data)
@@ -92,7 +93,7 @@ class Interface:
         return cls((pair[0], pair[1]), values, factors)
 
     def law_of(self, mixed: Mapping[str, object]) -> Table:
-        """Values of the contact's law that differ from those of the rule of mixing.
+        """Return values of the contact's law that differ from the rule of mixing.
 
         Args:
             mixed: Law by the rule of mixing; its energies are None for brittle softening.
@@ -116,7 +117,7 @@ class Interface:
         return {**self._implied(), **self.factors}.get(key, 1.0)
 
     def _implied(self) -> dict[str, float]:
-        """Factors of the fracture energies that are not given: squares of those of the strengths.
+        """Return factors of unspecified fracture energies: squares of the factors of strengths.
 
         Such a contact softens over a length in proportion to its strength.
         """
@@ -131,14 +132,14 @@ class Interface:
 
 
 def checked(interfaces: object, minerals: Sequence[str]) -> tuple[Interface, ...]:
-    """Interfaces from tables, or from interfaces.
+    """Return interfaces from tables, or from interfaces.
 
     Args:
-        interfaces: A list of them.
+        interfaces: List of tables or interfaces.
         minerals: Names of the rock's minerals.
 
     Raises:
-        InputError: for a mineral that the rock does not have, or a pair that is there twice.
+        InputError: for a mineral that the rock does not have, or a pair that occurs twice.
     """
     if not isinstance(interfaces, list | tuple):
         raise InputError(f"material interface = {quoted(interfaces)}, must be tables [[interface]]")
@@ -165,9 +166,9 @@ def is_key(label: str) -> bool:
 def with_values(
     interfaces: Sequence[Interface], values: Mapping[str, object], minerals: Sequence[str]
 ) -> tuple[Interface, ...]:
-    """Interfaces with changed values; a pair that is new makes one.
+    """Return interfaces with changed values; a new pair makes an interface.
 
-    A value takes the place of a factor of the same key, and the other way round.
+    A value replaces a factor of the same key, and vice versa.
 
     Args:
         interfaces: The interfaces.
@@ -201,10 +202,10 @@ def read_key(label: str, minerals: Sequence[str]) -> tuple[tuple[str, str], str,
 
 
 def _split(label: str, names: str, minerals: Sequence[str]) -> tuple[str, str]:
-    """Minerals of a text MINERAL/MINERAL; a name may have a slash of its own.
+    """Return the minerals of a text MINERAL/MINERAL; a name may contain a slash.
 
     Raises:
-        InputError: for a text that names no pair of the minerals, or more than one.
+        InputError: for a text that names no pair of the minerals, or more than one pair.
     """
     parts = names.split("/")
     pairs = (("/".join(parts[:at]), "/".join(parts[at:])) for at in range(1, len(parts)))

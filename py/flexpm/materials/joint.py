@@ -73,10 +73,11 @@ class Joint:
         return cls(name, **values)
 
     def law(self, rock: Mapping[str, object]) -> Table:
-        """Parameters in effect.
+        """Return the parameters in effect.
 
         Args:
-            rock: Law of the rock's own contacts, from which a notch takes what it does not give.
+            rock: Law of the rock's own contacts, which provides all values that a notch does not
+                set.
 
         Raises:
             InputError: if a fracture energy lies below the elastic energy.
@@ -118,7 +119,7 @@ class Joint:
         return require_number(label, value, JOINT_BOUNDS[key], JOINT_UNITS[key] or "")
 
     def _check_dilation(self, friction: float) -> None:
-        """Refuse a dilation that would give more energy than friction takes, or that never ends."""
+        """Reject a dilation that supplies more energy than friction dissipates, or never ends."""
         if self.dilation_angle == 0.0:
             return
         label = f"material [joint.{self.name}]"
@@ -143,7 +144,7 @@ class Joint:
 
 
 def checked(joints: object) -> tuple[Joint, ...]:
-    """Joints from tables by name, or from joints; each name is there once."""
+    """Return joints from tables by name, or from joints; each name occurs once."""
     if isinstance(joints, Mapping):
         return tuple(Joint.from_dict(name, values) for name, values in joints.items())
     if isinstance(joints, tuple | list) and all(isinstance(one, Joint) for one in joints):
@@ -163,7 +164,7 @@ def with_values(joints: tuple[Joint, ...], values: Mapping[str, object]) -> tupl
 
 
 def require_joints(names: Iterable[str], known: Sequence[str]) -> None:
-    """Refuse a specimen with a joint that the material does not have."""
+    """Reject a specimen with a joint that the material does not have."""
     for name in names:
         if not known:
             raise InputError(

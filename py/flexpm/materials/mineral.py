@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Minerals of a heterogeneous rock: what each changes of the rock's material. SI units."""
+"""Minerals of a heterogeneous rock: changes of each mineral to the rock's material. SI units."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _KEYS = tuple(key for key in COMMON_KEYS if key != "plane")
 
 @dataclass(frozen=True)
 class Mineral:
-    """A mineral by what it changes of the rock's material."""
+    """A mineral, described by its changes to the rock's material."""
 
     name: str
     fraction: float  #: of the area [-]
@@ -46,10 +46,11 @@ class Mineral:
 
         Args:
             data: The table.
-            number: Its place, from 1, for messages.
+            number: Its position, from 1, for messages.
 
         Raises:
-            InputError: naming the key that is unknown, missing or out of range.
+            InputError: for a key that is unknown, missing or out of range; the message names the
+                key.
         """
         where = f"material [[mineral]] {number}"
         changes = require_table(where, data)

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Materials of the minerals of a rock, and of contacts between two of them. SI units, magnitudes.
+"""Materials of the minerals of a rock, and of contacts between two minerals. SI units, magnitudes.
 
-The paper has one kind of grain; minerals, their place and the rule of mixing are ours, Deviation
-D27. Half of a contact belongs to each grain: stiffnesses act in series, and what carries least
-gives way first.
+The paper has one type of grain. Minerals, their positions and the rule of mixing are extensions,
+Deviation D27. Half of a contact belongs to each grain: stiffnesses act in series, and the weaker
+half yields first.
 
     K_n = 2 / (1 / K_nA + 1 / K_nB),  eta K_n in the same way,
-    sigma_t, c, mu, G_fn, G_fs: the smaller of the two; brittle if one of them is.
+    sigma_t, c, mu, G_fn, G_fs: the smaller of the two; brittle if either mineral is brittle.
 
-An interface of the material has the last word on the contacts of its pair.
+An interface of the material takes precedence for the contacts of its pair.
 """
 
 from __future__ import annotations
@@ -57,11 +57,11 @@ def pair_materials(rock: Material, model: str) -> list[Material]:
 
 
 def description(rock: Material, model: str = "flexible") -> Table:
-    """``rock.law`` of `model`, and if grains differ also that of each mineral, by `minerals`.
+    """Return ``rock.law`` of `model`; if grains differ, also laws of minerals, by `minerals`.
 
     Raises:
         InputError: as ``law`` for any mineral or pair of minerals, or if `model` cannot have
-            several.
+            several minerals.
     """
     values: Table = {**rock.law(model)}
     if rock.joints:
@@ -90,10 +90,10 @@ def description(rock: Material, model: str = "flexible") -> Table:
 
 
 def from_description(described: Table, model: str) -> Material:
-    """The material that a ``description`` was taken from, as far as `model` knows it.
+    """Return the material of a ``description``, with the parameters that `model` uses.
 
     Args:
-        described: As ``description`` gives it, with the ``name`` of the rock.
+        described: Return value of ``description``, with the ``name`` of the rock.
         model: Name of the model.
 
     Raises:
@@ -111,10 +111,10 @@ def from_description(described: Table, model: str) -> Material:
 
 
 def value_of(rock: Material, label: str, model: str) -> object:
-    """Value that a key of the rock, or ``interface.MINERAL/MINERAL.KEY``, has for a model.
+    """Return the value of a key of the rock, or of ``interface.MINERAL/MINERAL.KEY``, for a model.
 
-    A factor that is not given is 1, of an energy the square of that of its strength. None of a key
-    that the law does not have.
+    A factor that is not given is 1; the factor of an energy is the square of the factor of its
+    strength. None for a key that the law does not have.
 
     Raises:
         InputError: for a mineral that the rock does not have, and as ``pair_materials``.
@@ -142,13 +142,13 @@ class LongSoftening:
 
 
 def long_softening(described: Table, most: float) -> list[LongSoftening]:
-    """Strengths of minerals and interfaces with a softening length above `most` times the usual.
+    """Return minerals and interfaces whose softening length is above `most` times the usual length.
 
-    The usual one is that of the rock for a mineral, and that of the mixing rule for an interface.
-    A fracture energy that was changed as well is taken to be meant.
+    The usual length is the rock's length for a mineral, and the length by the rule of mixing for an
+    interface. A fracture energy that was also changed is regarded as intended.
 
     Args:
-        described: As ``description`` gives it.
+        described: Return value of ``description``.
         most: Largest ratio that is not returned [-].
     """
     minerals = {kind["name"]: kind for kind in described.get("minerals", ())}
@@ -171,10 +171,10 @@ def long_softening(described: Table, most: float) -> list[LongSoftening]:
 
 
 def is_brittle(described: Table) -> bool:
-    """Whether contacts break at their peak, with no energy left for softening, in any mineral.
+    """Return whether contacts of any mineral break at their peak, without energy for softening.
 
     Args:
-        described: As ``description`` gives it; a key that is missing says nothing.
+        described: Return value of ``description``; a missing key is ignored.
     """
     contacts = [*(described.get("minerals") or [described]), *described.get("interfaces", ())]
     return any(map(_breaks_at_once, contacts))
@@ -253,7 +253,7 @@ def _pair(first: Material, second: Material, model: str) -> Material:
 
 
 def _with_interface(pair: Material, own: Interface | None, model: str) -> Material:
-    """Contact of a pair with what its interface gives."""
+    """Return the contact of a pair with the values of its interface."""
     if own is None:
         return pair
     name = elastic_set_name(model)
@@ -273,12 +273,12 @@ def _with_interface(pair: Material, own: Interface | None, model: str) -> Materi
 
 
 def _contact_law(law: Law) -> Table:
-    """What of a law is the contact's."""
+    """Return the part of a law that belongs to the contact."""
     return {key: value for key, value in law.items() if key in KEYS}
 
 
 def _weaker(laws: Sequence[Mapping[str, float]], key: str) -> float:
-    """Value that contacts between these grains have of a key that mixes by the smaller one."""
+    """Return the contact's value of a key that mixes by the smaller value of both grains."""
     return min(law[key] for law in laws)
 
 

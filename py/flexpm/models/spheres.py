@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """YADE's own bonded models, JCFpm and CohFrict, on the discs and bonds of a specimen. SI units.
 
-Spheres at the disc centres move in the plane and turn about z, those of a solid as they like; each
-edge, or face, that two cells share is a bond whose stiffness and strength follow the rule of
-``sphere_bonds``, and so is each pair within an interaction range if one is asked for. Spheres that
-meet later touch with friction only. As in the other models masses are scaled for a time step of 1
+In 2D, spheres at the disc centres move in the plane and rotate about z; in 3D they move freely.
+Each edge, or face, that two cells share is a bond whose stiffness and strength follow the rule of
+``sphere_bonds``. If an interaction range is requested, each pair within it is also bonded. Spheres
+that meet later have friction only. As in the other models, masses are scaled for a time step of 1
 unless the model is dynamic.
 """
 
@@ -51,19 +51,19 @@ class SphereModel:
     Attributes:
         specimen: The grains.
         material: Their material.
-        kind: What its contact law does differently.
+        kind: Differences of its contact law.
         laws: Effective parameters of its minerals and of their pairs.
         bonds: Properties of the bonds.
         law: The contact law's functor.
         engines: All engines of the model.
         plate_material: Id of the material of plates.
         ids: Body of each grain.
-        cracks: Bonds that have broken.
+        cracks: Broken bonds.
         plates: Bodies of the plates.
-        loads: Lasting force and moment on bodies, see :meth:`load`.
-        memory: Plain values of a test that go with the scene.
-        threads: Threads of a step, see :meth:`set_threads`.
-        dynamic: Real masses and a time step in seconds.
+        loads: Permanent force and moment on bodies, see :meth:`load`.
+        memory: Plain values of a test that are saved with the scene.
+        threads: Number of threads of a step, see :meth:`set_threads`.
+        dynamic: Whether masses are real and the time step is in seconds.
     """
 
     specimen: AnySpecimen
@@ -93,7 +93,7 @@ class SphereModel:
 
     @property
     def minerals(self) -> IntArray | None:
-        """Index of each grain's mineral, or None if all grains are alike."""
+        """Index of each grain's mineral; None without minerals."""
         return None if self.laws.are_alike else self.laws.minerals
 
     def run(self, steps: int) -> None:
@@ -103,7 +103,7 @@ class SphereModel:
                 yade.O.step()  # O.run steps in a thread of its own, which no limit reaches
 
     def load(self, body: int, x: float, y: float, moment: float) -> None:
-        """Let a force [N] and a moment [N m] of the plane act on a body until they are set anew."""
+        """Apply a force [N] and an in-plane moment [N m] to a body until they are set again."""
         self.loads[body] = (x, y, moment)
         yade.O.forces.setPermF(body, (x, y, 0.0))
         yade.O.forces.setPermT(body, (0.0, 0.0, moment))
@@ -128,7 +128,7 @@ class SphereModel:
 
     @property
     def damping(self) -> float:
-        """Local damping alpha [-]; at most that with which the specimen was built."""
+        """Local damping alpha [-]; at most the damping with which the specimen was built."""
         return float(_newton(self.engines).damping)
 
     @damping.setter
@@ -173,7 +173,7 @@ class SphereModel:
 
     @property
     def axis(self) -> int:
-        """Along which it is loaded: y in the plane, z in space."""
+        """Index of the axis of the loading: y in 2D, z in 3D."""
         return self.specimen.centres.shape[1] - 1
 
     def snapshot(self) -> AnySnapshot:
@@ -187,14 +187,14 @@ class SphereModel:
         return snapshot(self.specimen, *state)
 
     def add_plate(self, face: float, sense: int) -> int:
-        """Put a fixed, frictionless plate across the axis beside the specimen.
+        """Put a fixed, frictionless plate across the axis next to the specimen.
 
         Args:
             face: Height of the face that touches the specimen [m].
-            sense: 1 for a plate above the specimen, -1 for one below.
+            sense: 1 for a plate above the specimen, -1 for a plate below.
 
         Returns:
-            Its body; give it a velocity to move it.
+            Its body; set its velocity to move it.
         """
         across = self.specimen.centres.T[: self.axis]
         half_height = self.specimen.mean_diameter
@@ -212,12 +212,11 @@ class SphereModel:
         return self.plates[-1]
 
     def touch(self, plate: int, tributary: Mapping[int, float]) -> None:
-        """Let grains touch a plate without force from the start, whatever their distance is.
+        """Make grains touch a plate without force from the start, at any distance.
 
         Args:
             plate: Body of the plate.
-            tributary: Length [m], of a solid area [m2], of the specimen's side that each grain
-                carries.
+            tributary: Length [m], in 3D area [m2], of the specimen's side that each grain carries.
         """
         stiffness = self.laws.of_grains("normal_stiffness")
         stiffness = stiffness * self.specimen.side_depth
@@ -227,10 +226,10 @@ class SphereModel:
             self.kind.set_rest(contact, contact.geom.penetrationDepth)
 
     def press(self, plate: int, pressure: float) -> None:
-        """Shift the rest of what touches a plate so that it carries a pressure [Pa] at once.
+        """Shift rest positions of contacts so that a plate carries a pressure [Pa] immediately.
 
-        A step must have been done since :meth:`touch`: in its first step JCFpm finds the rest of a
-        contact itself.
+        A step must have been done since :meth:`touch`: in its first step JCFpm finds the rest
+        position of a contact itself.
         """
         overlaps = pressure / self.laws.of_grains("normal_stiffness")
         grains = {body: grain for grain, body in enumerate(self.ids)}
@@ -270,15 +269,15 @@ def build(
         model: ``jcfpm`` or ``cohfrict``.
         damping: Local damping alpha [-].
         dynamic: Real masses and a time step in seconds instead of scaled masses and unit steps.
-        interaction_range: Distance up to which discs are bonded over the sum of their radii [-];
-            None: only those whose cells share an edge.
+        interaction_range: Largest ratio of distance to sum of radii at which discs are bonded [-];
+            None: only discs whose cells share an edge.
         threads: Threads of YADE's engines.
 
     Returns:
         The model; ``yade.O`` holds its bodies and engines.
 
     Raises:
-        InputError: for an unknown model, a material without what it needs, or grains without
+        InputError: for an unknown model, a material without a required value, or grains without
             bonds.
     """
     require_one_of("build: model", model, SPHERE_MODELS)
@@ -322,7 +321,7 @@ def _add_materials(
     """Add YADE's materials of new contacts, which are as stiff as the mean bond of their mineral.
 
     Returns:
-        Material of the spheres of each mineral, and the id of that of plates.
+        Material of the spheres of each mineral, and the id of the material of plates.
     """
     radius = float(np.mean(radii))
     made = [
@@ -396,7 +395,7 @@ def _make_bonds(built: SphereModel) -> list[wrapper.Interaction]:
 
 
 def _find_bonds(built: SphereModel) -> list[wrapper.Interaction | None]:
-    """The interaction that each bonded pair has now, None where there is none."""
+    """Return the present interaction of each bonded pair; None without an interaction."""
     found = {(one.id1, one.id2): one for one in yade.O.interactions}
     pairs = np.array(built.ids)[built.bonds.grains].tolist()
     return [found.get((a, b), found.get((b, a))) for a, b in pairs]

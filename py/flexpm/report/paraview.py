@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """State for ParaView: the frames of a run, grains by their stress, cracks by their mode. SI units.
 
-A state is XML, which any ParaView reads, also one without Python as Debian's. This one has what a
-state that ParaView 5.11 has saved says otherwise than ParaView's defaults, and nothing else.
+A state is XML, which any ParaView reads, also a ParaView without Python such as Debian's. This
+state has only the values of a state of ParaView 5.11 that differ from ParaView's defaults.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ _BLACK, _WHITE = (0, 0, 0), (1, 1, 1)
 
 @dataclass(frozen=True)
 class _Proxy:
-    """An object of ParaView, as a value of a property of another one."""
+    """An object of ParaView, as a value of a property of another object."""
 
     number: int
 
@@ -60,7 +60,7 @@ _Values = Sequence[object]
 
 
 class _Colours(NamedTuple):
-    """What colours grains: an array over points or cells, and where its colours begin and end."""
+    """Colours of grains: an array over points or cells, and the range of its colours."""
 
     array: str
     place: int
@@ -159,10 +159,10 @@ class _State:
 
 
 def write_state(path: Path, result: Result, frames: Sequence[tuple[Path, int, float]]) -> None:
-    """Write the state; nothing if no frame can be drawn.
+    """Write the state; no file if no frame can be plotted.
 
     Args:
-        path: The state, beside ``frames.pvd``, which it names by its whole path.
+        path: The state, next to ``frames.pvd``, which it names by its absolute path.
         result: The run.
         frames: File, step and axial stress [Pa] of each frame, in their order.
     """
@@ -187,7 +187,7 @@ def write_state(path: Path, result: Result, frames: Sequence[tuple[Path, int, fl
 
 
 def _colours_of(snapshot: AnySnapshot, test: str) -> _Colours:
-    """What colours grains at the largest stress: rigid ones of the plane have none of their own."""
+    """Return the colours of grains at the largest stress; rigid 2D grains have no stress."""
     smaller, larger = snapshot.extreme_stresses
     smallest = f"principal_stress_{len(snapshot.positions.T)}"
     moved = np.hypot.reduce(snapshot.positions - snapshot.reference, axis=1)
@@ -205,9 +205,9 @@ def _colours_of(snapshot: AnySnapshot, test: str) -> _Colours:
 
 
 def _shown(state: _State, frames: _Proxy, colours: _Colours, place: _Place) -> list[_Proxy]:
-    """Add the grains of the frames and their cracks with their scales; what a view shows.
+    """Add the grains of the frames and their cracks with their scales; return the visible objects.
 
-    Of a solid these are the grains behind a plane through its axis, and where it meets cracks.
+    In 3D these are the grains behind a plane through the axis, and the cracks in this plane.
     """
     low, high = colours.low, colours.high
     grains = _threshold(state, frames, "grains", "kind", (GRAIN, GRAIN))
@@ -253,7 +253,7 @@ def _threshold(
 
 
 def _cut(state: _State, kind: str, name: str, cells: _Proxy, place: _Place) -> _Proxy:
-    """What lies behind the plane through the axis and x (``Clip``), or in it (``Cut``)."""
+    """Return the part behind the plane of the axis and x (``Clip``), or in it (``Cut``)."""
     plane: dict[str, _Values] = {"Origin": place.middle, "Normal": (0, -1, 0)}
     made = state.add("implicit_functions Plane", "pq_helper_proxies", f"plane {kind}", plane)
     return state.add(

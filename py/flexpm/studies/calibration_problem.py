@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Calibration files: what is to be met, what may change, and the runs that tell. SI units, degrees.
+"""Calibration files: targets, free values, and the runs that measure them. SI units, degrees.
 
 A calibration has targets (measures of a rock), free keys of a material with their bounds, and the
 specimens on which the search is made and on which its best sets are verified.
@@ -59,7 +59,7 @@ MEASURES: dict[str, tuple[str, ...]] = {
 
 
 def _of_envelope_in(*, space: bool) -> dict[bool, str]:
-    """Test of an envelope without and with a confinement, in the plane or in space."""
+    """Return the test of an envelope without and with a confining pressure, in 2D or 3D."""
 
     def fits(kind: TestKind) -> bool:
         return kind.envelope and (bool(kind.solids) if space else not is_solid(kind.shape))
@@ -94,7 +94,7 @@ class Target:
         return math.sqrt(self.weight) * (found / self.value - 1.0) / self.tolerance
 
     def corrected(self, small: float | None, full: float | None) -> Target:
-        """That of a small specimen for which the full one should meet it, from what both gave."""
+        """Return the target of small specimens with which full specimens should meet theirs."""
         if small is None or full is None:
             return self
         return replace(self, value=self.value * small / full)
@@ -124,7 +124,7 @@ class Runs:
         return input_names.shape_of(test, options.get("shape"), options.get("depth"))
 
     def seeds_of(self, target: Target) -> Sequence[int]:
-        """Seeds of the packings that tell a measure."""
+        """Return the seeds of the packings on which a measure is taken."""
         tests = MEASURES[target.name]
         discs = all(test in KINDS and KINDS[test].shape == "disc" for test in tests)
         return self.disc_seeds if discs else self.seeds
@@ -168,12 +168,12 @@ class Calibration:
         return MadeFor(dimension_of(solid=self.is_solid), self.model, 0.5 * (low + high))
 
     def of_kind(self, elastic: bool) -> tuple[list[Target], list[str]]:
-        """Targets and free keys that the elastic solve tells, or the others."""
+        """Return targets and free keys of the elastic solution, or the other targets and keys."""
         targets = [t for t in self.targets if (t.name in ELASTIC_MEASURES) == elastic]
         return targets, [key for key in self.free if (_last(key) in ELASTIC_KEYS) == elastic]
 
     def tests(self, target: Target) -> list[tuple[str, float]]:
-        """Tests with their confinements [Pa] that a measure needs."""
+        """Return the tests with their confining pressures [Pa] that a measure needs."""
         tests = MEASURES[target.name]
         if tests == ("envelope",):
             tests_of = _OF_ENVELOPE[is_solid(self.screen.options.get("shape", ""))]
@@ -181,14 +181,14 @@ class Calibration:
         return [(test, 0.0) for test in tests]
 
     def entries(self, target: Target) -> list[tuple[tuple[str, float], str]]:
-        """Test with its confinement [Pa] and key of result.json of each part of a measure."""
+        """Return test, confining pressure [Pa] and key of result.json of each part of a measure."""
         if target.name in _TOLD or target.name in QUOTIENTS:
             names = QUOTIENTS.get(target.name, (target.name,))
             return [((test, 0.0), key) for test, key in (_TOLD[name] for name in names)]
         return [(test, "peak_stress") for test in self.tests(target)]
 
     def measure(self, target: Target, found: Mapping[tuple[str, float], Table]) -> float | None:
-        """A measure of one packing, from its results by (test, confinement); None if missing."""
+        """Return a measure of a packing from its results by test and pressure; None if missing."""
         if target.name in _TOLD:
             return _told(target.name, found)
         if target.name in QUOTIENTS:
@@ -251,10 +251,10 @@ def read(path: Path | str) -> Calibration:
 
 
 def free_of(bounds: Mapping[str, object]) -> dict[str, tuple[float, float]]:
-    """Free keys with their bounds.
+    """Return the free keys with their bounds.
 
     Raises:
-        InputError: for a key that there is not, and for what are no bounds.
+        InputError: for an unknown key, and for invalid bounds.
     """
     free = {key: _bounds(f"[free] {key}", b) for key, b in bounds.items()}
     for key in free:
@@ -311,7 +311,7 @@ def _ratios(entries: Sequence[Table], free: Mapping[str, object]) -> Iterator[Ra
 
 
 def _runs(content: Table, name: str, seeds: Sequence[int]) -> Runs:
-    """Runs of ``[screen]`` or ``[verify]``, whose options are over those of ``[common]``."""
+    """Return the runs of ``[screen]`` or ``[verify]``, whose options override ``[common]``."""
     label = f"calibration [{name}]"
     tables = [("calibration [common]", content.get("common", {})), (label, content.get(name, {}))]
     options: Table = {}
@@ -349,5 +349,5 @@ def _require(label: str, value: object, holds: bool, rule: str) -> None:
 
 
 def key_of(measure: str) -> str:
-    """Key of result.json of a measure that one test tells; of another its own name."""
+    """Return the key of result.json of a measure of a single test; else the name of the measure."""
     return _TOLD.get(measure, ("", measure))[1]

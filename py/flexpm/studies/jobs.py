@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Jobs of studies and calibrations: one command of flexpm each, named by the key of its inputs.
 
-A job runs in a process and a folder of its own. Once its outcome is on disk it is never run again.
-SI units.
+A job runs in a separate process and folder. When its outcome is on disk, it is never run again. SI
+units.
 """
 
 from __future__ import annotations
@@ -56,15 +56,15 @@ _OUTCOME = "outcome.json"
 
 
 class Task(Protocol):
-    """What a pool runs: a process in a folder of its own."""
+    """A process in a separate folder, run by a pool."""
 
     @property
     def inputs(self) -> Table:
-        """What was asked for, flat."""
+        """Requested inputs, flat."""
 
     @property
     def output(self) -> Output:
-        """What is written beside the results."""
+        """Files that are written in addition to the results."""
 
     @property
     def key(self) -> str:
@@ -72,7 +72,7 @@ class Task(Protocol):
 
     @property
     def folder(self) -> str:
-        """Folder below that of all."""
+        """Folder of the run, relative to the folder of all runs."""
 
     def older_keys(self) -> list[str]:
         """Names under which the same was run before results changed."""
@@ -81,7 +81,7 @@ class Task(Protocol):
         """The command line for a folder; `worker_path` holds the package."""
 
     def checked(self, folder: Path, done: CompletedProcess[str]) -> CompletedProcess[str]:
-        """How its process has ended, with what its folder says."""
+        """Return how its process has ended, with the message of its folder."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ class Job:
 
     @property
     def folder(self) -> str:
-        """Folder of the run below that of all."""
+        """Folder of the run, relative to the folder of all runs."""
         return self.place or self.key
 
     def older_keys(self) -> list[str]:
@@ -117,13 +117,13 @@ class Job:
         return self.spec.older_keys()
 
     def checked(self, folder: Path, done: CompletedProcess[str]) -> CompletedProcess[str]:
-        """The process says all of it by itself."""
+        """Return the outcome of the process, which needs no further check."""
         return done
 
     def command(self, folder: Path, worker_path: Path) -> list[str]:
-        """The command line for a folder; `worker_path` holds the package.
+        """Return the command line for a folder; `worker_path` has the package.
 
-        The process ends with the one that started it, so that a killed study leaves none behind.
+        The process ends with its parent process, so that a stopped study leaves no process behind.
         """
         return [
             *("env", "OMP_NUM_THREADS=1", "FLEXPM_DEFER=1", f"PYTHONPATH={worker_path}"),
@@ -238,11 +238,11 @@ def place_of(model: str, confinement: float, confinements: int) -> str:
 
 
 def known(folder: Path, key: str | None = None) -> Table | None:
-    """The outcome of a job that has ended in `folder`, or None.
+    """Return the outcome of a job that has ended in `folder`, or None.
 
     Args:
         folder: Folder of the run.
-        key: Key of the job; the outcome of another one does not count. None: any.
+        key: Key of the job; the outcome of another key does not count. None: any.
     """
     try:
         outcome: Table = read_json(folder / _OUTCOME)
@@ -267,10 +267,10 @@ def outdated(waiting: Iterable[Task], done: Callable[[str], bool]) -> str:
 
     Args:
         waiting: Jobs that are not finished.
-        done: Tells whether a job of a key is finished.
+        done: Function that returns whether a job of a key is finished.
 
     Returns:
-        The line, or an empty text if there are none.
+        The line, or an empty text without such runs.
     """
     count = sum(any(map(done, job.older_keys())) for job in waiting)
     if not count:
@@ -279,11 +279,11 @@ def outdated(waiting: Iterable[Task], done: Callable[[str], bool]) -> str:
 
 
 def conclude(job: Task, folder: Path, done: CompletedProcess[str] | BaseException) -> Table:
-    """Read what a job has left, and note its outcome in `folder` unless it was interrupted.
+    """Read the files of a job, and store its outcome in `folder` unless it was interrupted.
 
     Returns:
         ``exit_code``, ``message`` (the line on stderr; empty only if the run has succeeded) and
-        ``result``: the measures, an empty dictionary if there are none.
+        ``result``: the measures, an empty dictionary without measures.
     """
     if isinstance(done, BaseException):  # the worker was lost, not the job's fault
         return {"exit_code": None, "message": f"{type(done).__name__}: {done}", "result": {}}
@@ -306,7 +306,7 @@ def conclude(job: Task, folder: Path, done: CompletedProcess[str] | BaseExceptio
 
 
 def _message(done: CompletedProcess[str]) -> str:
-    """What a run has said, or how it ended if it could not say anything."""
+    """Return the message of a run, or how it ended if it printed no message."""
     lines = [line for line in done.stderr.splitlines() if line.strip()]
     own = [line for line in lines if line.startswith("flexpm: ")]
     if own or done.returncode == 0:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A test on several packings: each a run of its own, then means and how packings scatter. SI units.
+"""A test on several packings: a run for each packing, then means and scatter. SI units.
 
-The runs are jobs, as those of a study; their folders are named by the seeds of the packings.
+The runs are jobs like the runs of a study; their folders are named by the seeds of the packings.
 """
 
 from __future__ import annotations
@@ -40,14 +40,14 @@ _SAID = {"": "mean", "_deviation": "standard deviation", "_error": "standard err
 def plan(
     spec: RunSpec, given: Table, seeds: Sequence[int], output: Output, place: str = ""
 ) -> list[Job]:
-    """Runs of a test on the packings of several seeds.
+    """Return the runs of a test on the packings of several seeds.
 
     Args:
         spec: The run, of any of the seeds.
         given: Options by name that make this run, with ``set.KEY`` for the material.
         seeds: Seeds of the packings.
-        output: What each run writes beside its results.
-        place: Folder of these runs below that of all.
+        output: Files that each run writes in addition to its results.
+        place: Folder of these runs, relative to the folder of all runs.
     """
     about = {"test": spec.test, "model": spec.model, "confinement": spec.confinement}
     found = []
@@ -66,10 +66,10 @@ def plan(
 
 
 def refuse_others(wanted: Sequence[Job], folder: Path) -> None:
-    """Refuse a folder in which a run has other inputs than its job.
+    """Reject a folder in which a run has other inputs than its job.
 
     Raises:
-        InputError: if there is one.
+        InputError: for such a folder.
     """
     for job in wanted:
         place = folder / job.folder
@@ -86,17 +86,17 @@ def run(
     workers: int | None = None,
     progress: Progress | None = None,
 ) -> pandas.DataFrame:
-    """Run what is not finished yet; write tables and pictures.
+    """Run all unfinished runs; write tables and pictures.
 
     Args:
         wanted: The runs.
         folder: For the folders of the runs, ``table.csv``, ``means.csv``, ``curves.png``, and
-            ``envelope.csv`` and ``envelope.png`` if there are several confinements.
-        workers: Runs at a time; None for one per core.
-        progress: Called when a run has ended.
+            ``envelope.csv`` and ``envelope.png`` with several confining pressures.
+        workers: Number of simultaneous runs; None for one per core.
+        progress: Function that is called when a run has ended.
 
     Returns:
-        One row a run: inputs, ``exit_code``, ``message``, measures.
+        One row per run: inputs, ``exit_code``, ``message``, measures.
     """
     with Pool(output_folder(folder), workers) as pool:
         outcomes = pool.run(wanted, progress)
@@ -110,7 +110,7 @@ def run(
 
 
 def means(rows: pandas.DataFrame) -> pandas.DataFrame:
-    """One row a model and confinement; runs that failed are counted and left out of the means.
+    """Return one row per model and confining pressure; means do not include failed runs.
 
     Args:
         rows: Rows of the runs.
@@ -118,7 +118,7 @@ def means(rows: pandas.DataFrame) -> pandas.DataFrame:
     Returns:
         ``runs``, ``failed``, and of each measure the mean, under its name, the standard deviation
         of the packings (``_deviation``) and the standard error of the mean (``_error``); missing
-        where there are too few runs.
+        values if there are too few runs.
     """
     found = []
     for _, group in rows.groupby(_BY, sort=False):
@@ -147,9 +147,9 @@ def failures(rows: pandas.DataFrame) -> dict[str, tuple[int | None, str]]:
 
 
 def text_table(wanted: Sequence[Job], rows: pandas.DataFrame) -> str:
-    """One line a packing, then mean, standard deviation and standard error.
+    """Return one line per packing, then mean, standard deviation and standard error.
 
-    With several models or confinements only the last three, for each of them.
+    With several models or confining pressures only the last three, for each of them.
     """
     groups = means(rows)
     header = [shown.heading for shown in words_of_test(wanted[0].spec.test).shown.values()]
@@ -170,7 +170,7 @@ def text_table(wanted: Sequence[Job], rows: pandas.DataFrame) -> str:
 
 
 def envelopes(rows: pandas.DataFrame) -> list[Envelope]:
-    """Strength criteria of each model through the peaks of all packings; those of one are none."""
+    """Return strength criteria of each model through the peaks of all packings."""
     found = []
     for model, group in rows[_counted(rows)].groupby("model", sort=False):
         peaks = group.dropna(subset=["peak_stress"])
@@ -181,7 +181,7 @@ def envelopes(rows: pandas.DataFrame) -> list[Envelope]:
 
 
 def envelopes_text(wanted: Sequence[Job], rows: pandas.DataFrame) -> str:
-    """Table of the strength criteria, empty without several confinements."""
+    """Return a table of the strength criteria; empty without several confining pressures."""
     found = envelopes(rows)
     return envelope_table(found, reference_of(wanted[0].spec.material["name"])) if found else ""
 
@@ -264,7 +264,7 @@ def _curve(path: Path, names: Words) -> pandas.DataFrame | None:
 
 
 def _key_of(checkpoint: Path) -> str | None:
-    """Key of the run that a checkpoint is of, None if it cannot be told."""
+    """Return the key of the run of a checkpoint; None if it is unknown."""
     try:
         content = read_json(checkpoint)
         return RunSpec.from_json(content["inputs"]).key()

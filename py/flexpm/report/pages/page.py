@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pages that open in a browser without a network: one file with tables, curves, maps, pictures.
+"""Reports that open in a browser without a network: one file with tables, curves, maps, pictures.
 
-The template lays a page out, Chart.js of Debian's libjs-chart.js draws the curves, three.js of
-libjs-three turns solids; they are copied into the file. Nothing is fetched: the page forbids it to
-the browser.
+The template has the layout, Chart.js of Debian's libjs-chart.js plots the curves, and three.js of
+libjs-three shows 3D specimens; both are copied into the file. Nothing is downloaded: the report
+forbids it to the browser.
 """
 
 from __future__ import annotations
@@ -82,14 +82,14 @@ class Status(NamedTuple):
 
 
 class Picture(NamedTuple):
-    """A picture that is there as a file."""
+    """A picture that exists as a file."""
 
     title: str
     file: Path
 
     @property
     def source(self) -> str:
-        """What a browser draws, as text; of a large file not each bit of it."""
+        """Return the image data as text, of a large file at a reduced quality."""
         content, kind = self.file.read_bytes(), "png"
         if len(content) > _LARGE:
             content, kind = _pressed(self.file), "webp"
@@ -107,16 +107,16 @@ def _pressed(file: Path) -> bytes:
 
 @dataclass(frozen=True)
 class View:
-    """A solid that turns, at the positions of its map.
+    """A 3D view of a specimen that can be rotated, at the positions of its map.
 
     Attributes:
         name: Name of the element, a word.
-        map: Name of the map whose slider tells the position.
+        map: Name of the map whose slider selects the position.
         counts: Numbers of vertices, faces, grains and positions.
-        size: Sides of the box about the solid [mm].
-        stress: Least and largest stress along the load that has a colour [MPa]; empty: not known.
+        size: Sides of the bounding box [mm].
+        stress: Least and largest stress along the load that has a colour [MPa]; empty: unknown.
         data: The arrays, see page_solid.py, deflated, in base64.
-        note: What is left out.
+        note: Parts that are left out.
     """
 
     name: str
@@ -152,7 +152,7 @@ class Map:
 
 @dataclass
 class Page:
-    """What a page shows; empty parts are left out."""
+    """Content of a report; empty parts are left out."""
 
     title: str
     about: str
@@ -210,7 +210,7 @@ def _joined(*scripts: Path) -> str:
 
 
 def rendered(name: str, **content: object) -> str:
-    """Fill a template; what is filled in is text and no HTML."""
+    """Fill a template; inserted values are text, not HTML."""
     import jinja2  # only where a page is written
 
     room = jinja2.Environment(
@@ -225,18 +225,18 @@ def rendered(name: str, **content: object) -> str:
 
 
 def _shown(value: object) -> object:
-    """A text without characters that are none in HTML; what is HTML already, as it is."""
+    """Return a text without characters that are invalid in HTML; HTML is returned unchanged."""
     plain = isinstance(value, str) and not hasattr(value, "__html__")
     return printable(value, kept="\n\t") if plain else value
 
 
 def rows_to_draw(places: FloatArray, most: int, kept: Sequence[int] = ()) -> IntArray:
-    """Rows that show a line as well as all of them do: about evenly along it.
+    """Return about evenly spaced rows that represent a line as well as all rows.
 
     Args:
         places: Coordinates of the rows, (N, K) of any units.
-        most: About how many rows.
-        kept: Rows that are taken in any case, besides the first and the last.
+        most: Approximate number of rows.
+        kept: Rows that are always included, besides the first and the last.
     """
     if len(places) == 0:
         return np.zeros(0, dtype=int)
@@ -250,7 +250,7 @@ def rows_to_draw(places: FloatArray, most: int, kept: Sequence[int] = ()) -> Int
 
 
 def numbers(values: FloatArray, factor: float = 1.0) -> list[float | None]:
-    """Numbers as a page has them; what is not finite is missing."""
+    """Return numbers for a report; None for numbers that are not finite."""
     return [
         float(f"{value:.{_DIGITS}g}") if np.isfinite(value) else None
         for value in (factor * np.asarray(values, dtype=float)).tolist()

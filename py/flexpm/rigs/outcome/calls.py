@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a script asks of its rig, call by call, as plain values: compared, stored and made again.
+"""Calls of a script to its rig, as plain values: compared, stored and repeated.
 
-Each public method of a rig that is recorded is a call: laying a part, a gauge, a stage. Its
-arguments are stored under their names, so a method that is added is recorded as it stands, if what
-it takes are numbers, texts, truth values, arrays, lists, tables, parts of the rig or a `Loading`.
+Each public method of a rig that is recorded is a call: a part, a gauge, a stage. Its arguments are
+stored under their names. A new method is recorded without further code if its arguments are
+numbers, texts, truth values, arrays, lists, tables, parts of the rig or a `Loading`.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ Kind = TypeVar("Kind", bound=type)
 
 
 class Keeper(Protocol):
-    """What a rig with a folder tells of its calls and steps."""
+    """Interface of a folder that records the calls and steps of a rig."""
 
     calls: Calls
 
@@ -55,7 +55,7 @@ class Keeper(Protocol):
         """See a step."""
 
     def draw(self) -> None:
-        """Draw pictures and page."""
+        """Make pictures and report."""
 
     def before(self, name: str) -> None:
         """A call begins."""
@@ -65,23 +65,23 @@ class Keeper(Protocol):
 
 
 class Calls:
-    """Calls of one test in their order, beside those that an earlier start has made.
+    """Calls of one test in their order, compared with the calls of an earlier start.
 
     Attributes:
-        made: Those of this start: the name as ``call``, the arguments, whether it is ``over``, and
-            the error that it ``raised``: class, text, and the stages that had begun by then.
+        made: Calls of this start: the name as ``call``, the arguments, whether it is ``over``, and
+            the error that it ``raised``: class, text, and the number of stages begun by then.
     """
 
     def __init__(
         self, folder: str, runner: Runner, earlier: Sequence[Table] = (), *, passes: bool = False
     ) -> None:
-        """Take what an earlier start has called.
+        """Take the calls of an earlier start.
 
         Args:
-            folder: Named in messages.
+            folder: Folder, named in messages.
             runner: Counts the stages of the calls.
-            earlier: Its calls, which this start must make again.
-            passes: The scene has what those of them have done that are over.
+            earlier: Calls of the earlier start, which this start must repeat.
+            passes: Whether the scene has the outcome of all finished calls.
         """
         self._folder, self._runner = folder, runner
         self._earlier, self._passes = [current_call(one) for one in earlier], passes
@@ -95,16 +95,16 @@ class Calls:
 
     @property
     def missing(self) -> int:
-        """Calls of the earlier start that this one has not made yet."""
+        """Number of calls of the earlier start that this start has not repeated yet."""
         return max(len(self._earlier) - len(self.made), 0)
 
     @contextmanager
     def of(self, name: str, given: Mapping[str, object]) -> Iterator[Table]:
-        """Note a call around what it does.
+        """Record a call around its execution.
 
         Raises:
-            InputError: if the earlier start has called something else there; what that call
-                raised, if it is over.
+            InputError: if the earlier start has another call there; or the error of that call, if
+                it is over.
         """
         call: Table = {"call": name, "with": {key: plain(one) for key, one in given.items()}}
         there = self._at(len(self.made))
@@ -139,7 +139,7 @@ class Calls:
 
 
 def recording(rig: Kind) -> Kind:
-    """Let a rig with a folder note what is asked of it; a decorator of its class."""
+    """Make a rig with a folder record its calls; a decorator of its class."""
     names = {
         name: function
         for base in reversed(rig.__mro__)
@@ -207,7 +207,7 @@ def _has_other(value: object) -> bool:
 
 
 def _asked(call: Table) -> Table:
-    """What was asked; what a function chooses is known by its nodes alone, afterwards."""
+    """Return the arguments of a call; the choice of a function is known only by its nodes."""
     chosen = [
         key
         for key, one in call["with"].items()
@@ -236,10 +236,10 @@ class Again:
         self._parts: dict[tuple[str, int], RigPart] = {}
 
     def make(self, call: Table) -> None:
-        """Make one; an error that came when it was first made comes and goes again.
+        """Repeat a call; if the first call raised an error, the error is raised and caught again.
 
         Raises:
-            InputError: for what is no call of this rig.
+            InputError: for a name that is not a call of this rig.
         """
         call = current_call(call)
         function = getattr(type(self._rig), str(call["call"]), None)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The folder of a script's own test: what it was, its result, its files. SI units."""
+"""Folder of a custom test: its inputs, its result, its files. SI units."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def save(
     report: bool = True,
     step_time: float | None = None,
 ) -> Result:
-    """Write what a script's own test has left so far; arguments as for ``TestRig.save``."""
+    """Write the present results of a custom test; arguments as for ``TestRig.save``."""
     place = output_folder(folder)
     refuse_folders(place, FILES)
     lock = FolderLock(place)
@@ -81,7 +81,7 @@ def save(
 
 
 class OwnInputs(RunInputs):
-    """What is known of a script's own test before it has done anything."""
+    """Inputs of a custom test that are known before its first stage."""
 
     @property
     def results(self) -> int:
@@ -107,7 +107,7 @@ def inputs_before(built: Model | SphereModel) -> OwnInputs:
 
 
 def inputs_of(rig: RigReadings, stages: Sequence[Table]) -> Table:
-    """What the test was, as far as plain values tell."""
+    """Return the inputs of the test that plain values can describe."""
     loads = [stage for stage in stages if "rate" in stage]
     run = replace(
         inputs_before(rig.built),
@@ -128,7 +128,7 @@ def _loading(rig: RigReadings, stages: Sequence[Table]) -> str:
 
 
 def result_so_far(rig: RigReadings, inputs: Table) -> Result:
-    """What the test has given so far."""
+    """Return the present result of the test."""
     waiting = inputs["loading"] == "waiting"
     result = result_of(rig, OWN.name, _largest_unbalanced(rig, waiting), waiting=waiting)
     result.inputs = inputs
@@ -174,10 +174,10 @@ def lines_in(rig: RigReadings, snapshot: AnySnapshot) -> tuple[list[int], list[i
 
 
 def _refuse_others(folder: Path, inputs: Table) -> None:
-    """Refuse a folder with another run than an earlier state of this test.
+    """Reject a folder with another run than an earlier state of this test.
 
     Raises:
-        InputError: if it holds one.
+        InputError: for such a folder.
     """
     refuse_other_kind(folder, "run")
     file = folder / RESULT
@@ -194,7 +194,7 @@ def _refuse_others(folder: Path, inputs: Table) -> None:
 
 
 def _is_earlier(file: Path, inputs: Table) -> bool:
-    """Whether a result.json is that of the same test, at this or an earlier stage."""
+    """Whether a result.json belongs to the same test, at this or an earlier stage."""
     try:
         there = current(read_json(file))["inputs"]
         stages = [comparable(current_stage(one)) for one in there["stages"]]
