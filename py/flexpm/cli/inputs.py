@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the command's options to what the library takes; loads YADE when it is needed. SI units."""
+"""Conversion of options to arguments of the library; loads YADE if needed. SI units."""
 
 from __future__ import annotations
 
@@ -46,16 +46,16 @@ def load_yade() -> None:
 
 
 def locked_folder(path: Path, kind: str = "") -> Path:
-    """Make the folder of the command's files and keep other processes out until the command ends.
+    """Make the folder of the command's files and lock it until the command ends.
 
-    What killed processes have left there half written is removed.
+    Incomplete files of killed processes are removed.
 
     Args:
         path: The folder.
-        kind: Kind of the results that go there, see ``KINDS``; empty for none.
+        kind: Type of its results, see ``KINDS``; empty for none.
 
     Raises:
-        InputError: if it cannot be made, or holds results of another kind.
+        InputError: if it cannot be made, or has results of another type.
     """
     folder = output_folder(path)
     if kind:
@@ -145,10 +145,10 @@ def _source(packed: AnySpec | None, file: Path | None, options: Table) -> Specim
 
 
 def side_pressures(options: Table) -> Table:
-    """Both pressures of a box by their names, where one option has them between a comma.
+    """Return both pressures of a box by their names, if one option has them separated by a comma.
 
     Raises:
-        InputError: if the second one is given twice.
+        InputError: if the second pressure is given twice.
     """
     first, *second = options["confinement"]
     given = options["second_confinement"]
@@ -226,7 +226,7 @@ def packed(kind: str, options: Table) -> SpecimenSource:
 
 
 def made_plane(specimen: SpecimenSource, progress: terminal.Progress) -> Specimen:
-    """The same of one that is of the plane."""
+    """Make the specimen, which must be 2D."""
     found = made(specimen, progress)
     assert found.spec.kind not in SOLIDS
     return cast("Specimen", found)
@@ -250,12 +250,12 @@ def made(specimen: SpecimenSource, progress: terminal.Progress) -> AnySpecimen:
 
 
 def resumed(specimen: SpecimenSource, folder: Path, progress: terminal.Progress) -> AnySpecimen:
-    """The specimen of a run: the one that its folder has kept, if a checkpoint there names it.
+    """Return the specimen of a run: the specimen in its folder, if a checkpoint there names it.
 
     Args:
-        specimen: Where it comes from otherwise.
+        specimen: Source of the specimen otherwise.
         folder: Folder of the run.
-        progress: Shows how far a packing is.
+        progress: Shows the progress of a packing.
     """
     load_yade()
     from ..runs.kept_packing import kept
@@ -274,7 +274,7 @@ _FILES = ("joints_file", "network_file")
 
 
 def _refuse_plane(shape: str) -> None:
-    """Refuse options of 2D specimens for a 3D one."""
+    """Reject options of 2D specimens for a 3D specimen."""
     context = click.get_current_context()
     for name in ("thickness", "joints_file", "network_file", "points", "mesh"):
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
@@ -284,7 +284,7 @@ def _refuse_plane(shape: str) -> None:
 
 
 def refuse_packing() -> None:
-    """Refuse options of a packing beside a specimen that is read from a file."""
+    """Reject options of a packing together with a specimen that is read from a file."""
     context = click.get_current_context()
     for name in (*SIZE_NAMES, *PACKING, "seeds"):
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
@@ -295,7 +295,7 @@ def refuse_packing() -> None:
 
 
 def refuse_unused(test: str) -> None:
-    """Refuse options that a test has no use for, whatever their values are."""
+    """Reject options that a test does not use, whether or not they have their defaults."""
     context = click.get_current_context()
     for name in UNUSED[test]:
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
@@ -304,7 +304,7 @@ def refuse_unused(test: str) -> None:
 
 
 def refuse_other_sizes(shape: str) -> None:
-    """Refuse sizes of another shape than the specimen's, which would be ignored silently."""
+    """Reject sizes of a shape other than the specimen's, which would have no effect."""
     context = click.get_current_context()
     for name in (size for sizes in SIZES.values() for size in sizes):
         given = context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE

@@ -24,14 +24,14 @@ received: list[int] = []
 
 
 class Terminated(BaseException):
-    """The process was asked to end (SIGTERM, or SIGHUP as its terminal is gone)."""
+    """SIGTERM, or SIGHUP from a closed terminal, has ended the process."""
 
 
 def catch_signals() -> None:
-    """Let Ctrl-C raise KeyboardInterrupt, SIGTERM and SIGHUP Terminated in the main thread.
+    """Make Ctrl-C raise KeyboardInterrupt, SIGTERM and SIGHUP Terminated in the main thread.
 
-    A SIGHUP that is ignored at the start stays so. To be called again once YADE is loaded, which
-    installs handlers of its own. Signals that were blocked come now.
+    A SIGHUP that is ignored at the start stays ignored. Call it again after YADE is loaded, because
+    YADE installs its own handlers. Signals that were blocked arrive now.
     """
 
     def interrupt(number: int, frame: FrameType | None) -> None:
@@ -50,13 +50,13 @@ def catch_signals() -> None:
 
 
 def block() -> None:
-    """Let signals wait until they are caught."""
+    """Block signals until they are caught."""
     signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
 
 
 @contextlib.contextmanager
 def waiting() -> Iterator[None]:
-    """Let signals wait for the end of the block, then catch them."""
+    """Block signals until the end of the block, then catch them."""
     block()
     try:
         yield
@@ -65,10 +65,10 @@ def waiting() -> Iterator[None]:
 
 
 def end_in_time() -> None:
-    """Let a second process kill this one if it does not end when it is asked to.
+    """Start a second process that kills this process if it does not end on request.
 
-    A library that loops, or asks for memory for ever, lets no Python run, so no exception comes.
-    Python notes a signal in a pipe all the same, at once. Signals wait until they are caught.
+    While a library loops or allocates memory, Python code does not run, so no exception is raised.
+    Python still writes each signal to a pipe immediately. Signals wait until they are caught.
     """
     block()
     reading, writing = os.pipe()
@@ -91,7 +91,7 @@ def end_in_time() -> None:
 
 
 def _watch(reading: int, watched: int) -> None:
-    """Wait for the end of a process; kill it a while after it was asked to end."""
+    """Wait for the end of a process; kill it some time after it was requested to end."""
     latest = None
     while True:
         left = None if latest is None else max(0.0, latest - time.monotonic())

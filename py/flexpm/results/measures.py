@@ -40,7 +40,7 @@ ONSET_SHARE = 0.05
 
 
 def differential_stress(curve: Curve) -> FloatArray:
-    """Axial stress above the confinement [Pa]; what deforms the specimen axially."""
+    """Return the deviator [Pa]: axial stress minus confining pressure."""
     return curve["axial_stress"] - curve["confinement"]
 
 
@@ -119,9 +119,9 @@ def poissons_ratio(curve: Curve) -> float | None:
 
 
 def elastic_poissons_ratio(curve: Curve) -> float | None:
-    """The same slope before the first contact point softens, up to 25 % of the largest stress [-].
+    """Return the same slope before the first point softens, up to 25 % of the largest stress [-].
 
-    Softening sets in below 5 % of the peak in places, so rows count from the first one on.
+    Softening can begin below 5 % of the peak, so rows count from the first row on.
     """
     softened = np.flatnonzero(curve["damage_energy"] > 0.0)
     end = elastic_rows(curve).stop
@@ -270,9 +270,9 @@ def set_point_missed(curve: Curve, measure: str) -> float:
 
 
 def kinetic_shares(curve: Curve) -> dict[str, float]:
-    """Kinetic energy over |boundary work| [-], by place: at the peak, at the end.
+    """Return the ratios of kinetic energy to |boundary work| [-] at the peak and at the end.
 
-    A place is left out where there is no peak, no work, or nobody counts it.
+    A ratio is left out if there is no peak, no work, or no record of the energies.
     """
     if not len(curve):
         return {}

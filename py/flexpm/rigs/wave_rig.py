@@ -53,8 +53,8 @@ class WaveRig(GrainRig):
         Args:
             built: A specimen with real masses and without damping.
             wave: ``p``: grains move along the height; ``s``: across it.
-            free: Sides are free, as of a thin bar.
-            runner: Steps, shows progress and saves checkpoints; None for one that only steps.
+            free: Whether sides are free, as in a thin bar.
+            runner: Object that steps, shows progress and saves checkpoints; None: it only steps.
         """
         super().__init__(built, runner=runner)
         self._wave, self._free = wave, free
@@ -80,7 +80,7 @@ class WaveRig(GrainRig):
 
     @property
     def record(self) -> Curve:
-        """The record so far; its strain is that between the sections, and its ends bear nothing."""
+        """The present record; its strain is taken between the sections; its ends carry no load."""
         names, rows = self._recorder.names, self._recorder.rows
         curve = Curve.from_columns(names, rows, waves.DISPLACEMENTS)
         near, far = (curve[name] for name in waves.DISPLACEMENTS)
@@ -92,7 +92,7 @@ class WaveRig(GrainRig):
         return Curve.from_array(table, (*waves.DISPLACEMENTS, waves.TIME))
 
     def send(self) -> None:
-        """Let a pulse go from the bottom until it has passed the upper section."""
+        """Send a pulse from the bottom until it has passed the upper section."""
         self._tell("send")
         self._stage(self._begin_wave, lambda: self.diverged)
 
@@ -154,7 +154,7 @@ class WaveRig(GrainRig):
             self.built.solver.holdSide(side, x=not across, y=across)
 
     def _set_motion(self, shape: wrapper.LaguerreCell, speed: float) -> None:
-        """Let a rigid grain move with the wave, without a spin."""
+        """Move a rigid grain with the wave, without rotation."""
         x, y, z = unit(self._moved)
         shape.setMotion((speed * x, speed * y, speed * z), 0.0)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was asked of a run, read from its result.json, and told: inputs with units and sources, the
-command.
+"""Requested inputs of a run, from its result.json: with units and sources, and as a command.
 
-Nothing heavy is loaded before a page is written, so that a file is checked before YADE starts.
+No heavy library is imported before a report is written, so that a file is checked before YADE
+starts.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def read_inputs(file: Path) -> tuple[RunSpec, Material]:
 
 
 def read_own(file: Path) -> tuple[RunInputs, Material, list[Table]] | None:
-    """What a script's own test began with and its calls, None for a run; as `read_inputs`.
+    """Return the first inputs of a custom test and its calls; None for a run; as `read_inputs`.
 
     Raises:
         InputError: if it cannot be read.
@@ -99,7 +99,7 @@ def _material_of(file: Path, spec: RunInputs) -> Material:
 
 
 def is_repeatable(inputs: object) -> TypeGuard[Table]:
-    """Whether inputs are those of a script's own test that has stored all that was asked for."""
+    """Whether inputs belong to a custom test that has stored all of its calls."""
     return isinstance(inputs, Mapping) and inputs.get("repeatable") is True
 
 
@@ -114,7 +114,7 @@ def _own_inputs(inputs: Table) -> RunInputs:
 
 @contextlib.contextmanager
 def _refusing(file: Path) -> Iterator[None]:
-    """Name the file whose inputs are those of no run."""
+    """Name the file whose inputs do not belong to a run."""
     try:
         yield
     except (TypeError, ValueError) as error:  # also an InputError
@@ -126,11 +126,11 @@ def _refusing(file: Path) -> Iterator[None]:
 
 
 def differences(before: Table, now: Table) -> list[str]:
-    """Names of the results in which two runs of the same inputs differ.
+    """Return the names of the results in which two runs of the same inputs differ.
 
     Args:
         before: Content of a result.json.
-        now: Content of the other one.
+        now: Content of the second file.
     """
     before, now = _without_times(current(before)), _without_times(current(now))
     return [
@@ -141,7 +141,7 @@ def differences(before: Table, now: Table) -> list[str]:
 
 
 def _without_times(content: Table) -> Table:
-    """What a result.json holds but the wall times of its loadings."""
+    """Return the content of a result.json without the wall times of its loadings."""
     if not content.get("rates"):
         return content
     rates = [{k: v for k, v in one.items() if k != "seconds"} for one in content["rates"]]
@@ -168,7 +168,7 @@ def write_report(folder: Path, result: Result) -> Path:
 
 
 def is_own(inputs: object) -> TypeGuard[Table]:
-    """Whether inputs of a result.json are those of a script's own test."""
+    """Whether inputs of a result.json belong to a custom test."""
     return isinstance(inputs, Mapping) and "repeatable" in inputs
 
 
@@ -205,7 +205,7 @@ class Input(NamedTuple):
 
 
 def told_of(inputs: Table) -> list[Input]:
-    """What inputs of a result.json say, of a run or of a script's own test."""
+    """Return inputs of a result.json, of a run or of a custom test, with units and sources."""
     return _told_own(inputs) if is_own(inputs) else told(RunSpec.from_json(inputs))
 
 
@@ -216,7 +216,7 @@ def told(spec: RunSpec) -> list[Input]:
 
 
 def command(spec: RunSpec) -> str:
-    """The command for a run, or an empty text if no options can ask for it."""
+    """Return the command for a run, or an empty text if no options describe it."""
     preset = spec.material.get("name")
     if preset not in preset_names() or {"minerals", "joints"} & spec.material.keys():
         return ""

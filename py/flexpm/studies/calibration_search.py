@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Calibration of a material to the measures of a rock. SI units, degrees.
 
-Elastic keys are fitted first, by the elastic solve. Strength keys follow by DFO-LS, a trust-region
-method for least squares without derivatives, on few packings of a small specimen; the best sets
-are verified on other packings of the full specimen, and what small and full specimens differ by
-corrects the targets of the next round. Strength keys are searched as logarithms.
+Elastic keys are fitted first, by the elastic solution. Strength keys follow by DFO-LS, a
+trust-region method for least squares without derivatives, on few packings of a small specimen. The
+best sets are verified on other packings of the full specimen. The difference between small and full
+specimens corrects the targets of the next round. Strength keys are searched as logarithms.
 
-All runs are jobs of :mod:`flexpm.jobs`: a calibration that was killed does the same search again,
-but finds the runs that were finished.
+All runs are jobs of :mod:`flexpm.jobs`: a calibration that was stopped repeats the same search, but
+finds the runs that were finished.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class Evaluation:
     lost: dict[str, str] = field(default_factory=dict)
 
     def mean(self, name: str) -> float | None:
-        """Mean of a measure over the packings, None if one is missing."""
+        """Return the mean of a measure over the packings; None if it is missing for a packing."""
         found = self._complete(name)
         return None if found is None else float(np.mean(found))
 
@@ -113,18 +113,18 @@ def run(
     progress: Progress | None = None,
     **pool_options: Unpack[PoolOptions],
 ) -> Outcome:
-    """Calibrate.
+    """Run a calibration.
 
     Args:
         plan: Targets, free keys and runs.
-        out: Folder; ``runs`` holds the runs, ``history.csv`` all sets that were tried.
-        start: Present values of the free keys in the material; one outside its bounds starts at
-            the nearer of them.
-        progress: Called when a set has been evaluated.
+        out: Folder; ``runs`` has the runs, ``history.csv`` all sets that were tried.
+        start: Present values of the free keys in the material; a value outside its bounds starts at
+            the nearer bound.
+        progress: Function that is called when a set has been evaluated.
         pool_options: ``workers``, ``scheduler``, ``cluster`` as for a study.
 
     Raises:
-        InputError: if a key has no number to start from, or no target tells one.
+        InputError: if a key has no number to start from, and no target determines it.
     """
     folder = output_folder(out)
     values = {key: started(plan, key, start) for key in plan.free}
@@ -168,7 +168,7 @@ def history_table(history: Sequence[Evaluation]) -> pandas.DataFrame:
 
 
 class Search:
-    """State of a calibration: the round, what has been tried, the runs' pool if it has runs."""
+    """State of a calibration: the round, all tried sets, the pool of runs if it has runs."""
 
     def __init__(self, plan: Calibration, pool: Pool | None, progress: Progress) -> None:
         self._plan, self._pool, self._progress = plan, pool, progress
@@ -203,7 +203,7 @@ class Search:
         return dict(zip(keys, (found.x * start).tolist(), strict=True))
 
     def strengths(self, values: Values) -> Evaluation:
-        """The set with the least verified cost of all rounds, one with all measures first."""
+        """Return the set with the least verified cost; sets with all measures come first."""
         targets, keys = self._plan.of_kind(elastic=False)
         if not keys or not targets:
             return self._verify(values)
@@ -222,7 +222,7 @@ class Search:
         return min(complete or verified, key=lambda e: e.cost)
 
     def _screen(self, values: Values, keys: list[str], aims: list[Target]) -> list[Evaluation]:
-        """Search on the small specimen; what was tried, best first."""
+        """Search on the small specimen; return all tried sets, the best set first."""
         # its restarts draw from here, and a second start must try the same sets
         np.random.seed(0)  # noqa: NPY002
         first = len(self.history)
@@ -256,7 +256,7 @@ class Search:
         return sorted(self.history[first:], key=lambda e: e.cost)
 
     def _guess(self, values: Values, keys: list[str], aims: list[Target]) -> Values:
-        """Start of the search: tensile strength, cohesion and friction follow what they govern."""
+        """Return the start of the search, from the measures that strengths and friction govern."""
         governed = {
             "tensile_strength": ("indirect_tensile_strength", "direct_tensile_strength"),
             "cohesion": ("compressive_strength", "hoek_brown_strength", "cohesion"),
@@ -277,7 +277,7 @@ class Search:
     def _projections(
         self, keys: list[str], bounds: FloatArray
     ) -> list[Callable[[FloatArray], FloatArray]] | None:
-        """Projections of the unit box on what the ratios allow: half-spaces of logarithms."""
+        """Return projections of the unit box on the permitted ratios: half-spaces of logarithms."""
         width = bounds[1] - bounds[0]
 
         def projection(normal: FloatArray, limit: float) -> Callable[[FloatArray], FloatArray]:
@@ -300,7 +300,7 @@ class Search:
         return self._evaluate("verify", values, self._plan.targets)
 
     def _evaluate(self, stage: str, values: Values, targets: Sequence[Target]) -> Evaluation:
-        """Run what the targets need with a set of free keys."""
+        """Run all tests that the targets need with a set of free keys."""
         plan = self._plan
         runs = plan.screen if stage == "screen" else plan.verify
         measures, lost = self._measures(runs, values, targets)
@@ -313,7 +313,7 @@ class Search:
     def _measures(
         self, runs: Runs, values: Values, targets: Sequence[Target]
     ) -> tuple[Measures, dict[str, str]]:
-        """Values of each measure, one a packing, and why there are none."""
+        """Return values of each measure, one per packing, and reasons for missing values."""
         plan = self._plan
         try:
             wanted = _jobs(plan, runs, values, targets)
@@ -340,7 +340,7 @@ class Search:
         return measures, {t.name: loss(plan, t, ended, runs.seeds_of(t)) for t in lost}
 
     def _expected(self) -> int:
-        """Most sets of the calibration: those of the elastic fit, then those of all rounds.
+        """Return the largest number of sets: sets of the elastic fit, then sets of all rounds.
 
         A round has its start, the search and the verified sets.
         """
@@ -371,7 +371,7 @@ class Search:
 def _jobs(
     plan: Calibration, runs: Runs, values: Values, targets: Sequence[Target]
 ) -> dict[tuple[int, tuple[str, float]], Job]:
-    """Runs that the measures of targets need, by seed and test with its confinement [Pa]."""
+    """Return the runs that the targets need, by seed and test with its confining pressure [Pa]."""
     material = {} if plan.material is None else {"material": plan.material}
     common = {**runs.options, **material, "model": plan.model}
 

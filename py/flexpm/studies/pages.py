@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""report.html of whatever has left its files in a folder. SI units; shown in GPa, MPa and %.
+"""report.html of any folder with results. SI units; shown in GPa, MPa and %.
 
-A page is made from files alone, so it can be made again at any time.
+A report is made from files only, so it can be made again at any time.
 """
 
 from __future__ import annotations
@@ -50,10 +50,10 @@ _MORE = ("fragments", "status")
 
 
 def require_results(folder: Path) -> Path:
-    """Refuse a folder that holds no results.
+    """Reject a folder without results.
 
     Raises:
-        InputError: if it is no folder of run, compare, study or calibrate.
+        InputError: if it is not a folder of run, compare, study or calibrate.
     """
     if kind_of(folder) is None:
         raise InputError(
@@ -64,7 +64,7 @@ def require_results(folder: Path) -> Path:
 
 
 def has_ended(folder: Path) -> bool:
-    """Whether a folder is not that of a run under way or stopped; only such a folder is locked."""
+    """Whether a folder has no unfinished run; `flexpm report` locks only such a folder."""
     return kind_of(folder) != "run" or (folder / RESULT).is_file()
 
 
@@ -102,7 +102,7 @@ def write(folder: Path) -> Path:
 
 
 def _comparison(folder: Path) -> Page:
-    """Page of several models or confinements on one packing."""
+    """Return the report of several models or confining pressures on one packing."""
     rows = _read(folder / "compare.csv")
     pressures = len({row["confinement"] for row in rows})
     places = [place_of(row["model"], float(row["confinement"]), pressures) for row in rows]
@@ -174,7 +174,7 @@ def _study(folder: Path) -> Page:
 def _by_inputs(
     rows: Sequence[Mapping[str, str]], found: Mapping[str, Result], asked: Sequence[str]
 ) -> dict[str, Result]:
-    """Results of a study by the inputs that vary in it, which name no two runs alike."""
+    """Return the results of a study by its varying inputs, with a unique name for each run."""
     names = {
         f"runs/{row['key']}": ", ".join(f"{words_of(key)} {_plain(row[key])}" for key in asked)
         for row in rows
@@ -207,7 +207,7 @@ def _calibration(folder: Path) -> Page:
 
 
 def _verdict(folder: Path) -> tuple[Status | None, list[Rows]]:
-    """Box and tables of what a calibration says of itself; none of one that was not finished."""
+    """Return box and tables of the verdict of a calibration; none if it was not finished."""
     file = folder / VERDICT
     if not file.is_file():
         return None, []
@@ -242,7 +242,7 @@ def _of_target(one: Table) -> tuple[str, ...]:
 
 
 def _text_of(file: Path) -> str:
-    """A file as it is, without what moves a cursor; empty if it cannot be read."""
+    """Return the text of a file without cursor movements; empty if it cannot be read."""
     try:
         return printable(read_text(file), kept="\n\t")
     except (OSError, ValueError):
@@ -273,7 +273,7 @@ def _runs(
     names: Sequence[str],
     inputs: Sequence[str] = (),
 ) -> Rows:
-    """One line a run: what was asked, what came out."""
+    """Return one row per run: inputs and outcome."""
     tests = dict.fromkeys(row.get("test", OWN.name) for row in rows)  # of a script: its own
     shown = {key: value for test in tests for key, value in words_of_test(test).shown.items()}
     header = ["run", *map(words_of, inputs), *(one.heading for one in shown.values()), *_MORE]
@@ -343,7 +343,7 @@ def _curves(found: Mapping[str, Result]) -> list[Chart]:
 
 
 def _about(found: Mapping[str, Result]) -> list[Rows]:
-    """What the statuses mean that are not ok, and what was asked of the first run."""
+    """Return the meaning of all statuses other than ok, and the inputs of the first run."""
     ended = dict.fromkeys(one.status for one in found.values())
     known = {**OWN_STATUS, **STATUS}
     doubtful = [known[name] for name in ended if name in known and not known[name].good]
@@ -380,6 +380,6 @@ def _envelope(folder: Path) -> list[Rows]:
 
 
 def _pictures(folder: Path, names: Sequence[str] | None = None) -> list[Picture]:
-    """Pictures of a folder, or those of given names that are there."""
+    """Return the pictures of a folder, or all existing pictures with the given names."""
     files = sorted(folder.glob("*.png")) if names is None else [folder / name for name in names]
     return [Picture(words_of(file.stem), file) for file in files if file.is_file()]

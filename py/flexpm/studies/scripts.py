@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs of a study that are a script's own test: parameters in, a folder out. SI units.
+"""Runs of a study that are custom tests of a script: parameters in, a folder out. SI units.
 
 A script gets its parameters as options, ``--seed 3 --out DIR``, a function as arguments. The key of
-such a run holds the bytes of the script and of what it imports beside itself.
+such a run includes the bytes of the script and of the files that it imports from its folder.
 """
 
 from __future__ import annotations
@@ -45,10 +45,10 @@ Value = bool | int | float | str
 
 @dataclass(frozen=True)
 class Script:
-    """What a study runs in the place of a test.
+    """A script or function that a study runs instead of a test.
 
     Attributes:
-        file: The script, or that in which the function is.
+        file: The script, or the file of the function.
         function: Name of the function; empty for a script.
         limit: Wall time of a run [s]; None for no limit.
     """
@@ -58,7 +58,7 @@ class Script:
     limit: float | None = None
 
     def __post_init__(self) -> None:
-        """Refuse a file that cannot be read, or a limit out of range."""
+        """Reject a file that cannot be read, or a limit out of range."""
         if self.limit is not None:
             require_number("study [study] limit", self.limit, POSITIVE, "s")
         try:
@@ -75,7 +75,7 @@ class Script:
             ) from None
 
     def checksum(self) -> str:
-        """Checksum of the script and of what it imports from its folder."""
+        """Checksum of the script and of all files that it imports from its folder."""
         finder = modulefinder.ModuleFinder([str(self.file.parent)])
         finder.run_script(str(self.file))
         files = [getattr(one, "__file__", None) for one in finder.modules.values()]
@@ -91,8 +91,8 @@ class ScriptJob:
 
     Attributes:
         inputs: Its parameters by name.
-        script: What is run.
-        checksum: That of its bytes, see `Script.checksum`.
+        script: The script or function.
+        checksum: Checksum of its bytes, see `Script.checksum`.
     """
 
     inputs: Table
@@ -115,11 +115,11 @@ class ScriptJob:
 
     @property
     def folder(self) -> str:
-        """Folder of the run below that of all."""
+        """Folder of the run, relative to the folder of all runs."""
         return self.key
 
     def older_keys(self) -> list[str]:
-        """Keys before: none, as what a script gave then is not known."""
+        """Return earlier keys: none, because earlier results of a script are unknown."""
         return []
 
     def command(self, folder: Path, worker_path: Path) -> list[str]:
@@ -143,7 +143,7 @@ class ScriptJob:
         ]
 
     def checked(self, folder: Path, done: CompletedProcess[str]) -> CompletedProcess[str]:
-        """How a process has ended, with an exit code and a line for what it has left or not."""
+        """Return how a process has ended, with an exit code and a line about its folder."""
         lines = done.stderr.strip().splitlines()
         code, said = done.returncode, lines[-1] if lines else ""
         if code == _OVER and self.script.limit is not None:
@@ -212,10 +212,10 @@ def of_function(
 
 
 def _file_of(function: Callable[..., object]) -> Path:
-    """The file at whose top a function is.
+    """Return the file that defines a function at its top level.
 
     Raises:
-        InputError: if there is none.
+        InputError: without such a file.
     """
     name = getattr(function, "__qualname__", "")
     module = sys.modules.get(getattr(function, "__module__", None) or "")
@@ -232,7 +232,7 @@ def _file_of(function: Callable[..., object]) -> Path:
 
 
 def refuse_within() -> None:
-    """Refuse to begin a study in a run of one: its script is loaded again there.
+    """Reject a study within a run of a study, whose process loads the script again.
 
     Raises:
         InputError: in such a run.
@@ -253,16 +253,16 @@ def call() -> None:
 
 
 def parameters(**defaults: Value) -> Mapping[str, Value]:
-    """Parameters of a script of a study: its options, ``--seed 3 --out DIR``, or the defaults.
+    """Return parameters of a study's script: its options, ``--seed 3 --out DIR``, or the defaults.
 
     Args:
-        defaults: Each parameter with its default, which says whether it is a number or a text.
+        defaults: Each parameter with its default, whose type decides between number and text.
 
     Returns:
         Values by name.
 
     Raises:
-        InputError: for an option that is none of them, or a value of another kind.
+        InputError: for an unknown option, or a value of another type.
     """
     found, given = dict(defaults), sys.argv[1:]
     if len(given) % 2 or not all(one.startswith("--") for one in given[::2]):
@@ -289,7 +289,7 @@ def _like(label: str, text: str, default: Value) -> Value:
 
 
 def _of_folder(folder: Path) -> tuple[int, str]:
-    """Exit code and line for what a script that has ended well has left in its folder."""
+    """Return exit code and line for the folder of a script that has ended without error."""
     if not (folder / RESULT).is_file():
         return 3, f"no {RESULT} was left in the folder of the run; give out to flexpm.PartRig"
     try:

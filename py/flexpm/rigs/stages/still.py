@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a rig of parts stands still, comes to rest, and steers its load to a value. SI units."""
+"""Stop of a rig of parts, return to equilibrium, and control of its load to a value. SI units."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _DAMPING_TAG = "flexpm_damping"
 
 
 class PartStill(PartStatics, GrainRig):
-    """Base of a rig of parts that brings what it loads to rest."""
+    """Base of a rig of parts that brings its specimen to rest."""
 
     built: Model
     _scales: Scales | None
@@ -73,13 +73,13 @@ class PartStill(PartStatics, GrainRig):
         return self.diverged or (looks and self._is_at_rest())
 
     def _is_at_rest(self) -> bool:
-        """Whether all forces balance, or next to nothing is stored any more."""
+        """Whether all forces balance, or the stored energy is negligible."""
         if self._is_empty():
             return True
         return self.unbalanced() < NODES_AT_REST and self._balance_of_all().largest < AT_REST
 
     def _is_empty(self) -> bool:
-        """Whether the energy that is stored or moves is none beside the largest of the record."""
+        """Whether stored and kinetic energy are negligible compared with the record's maximum."""
         energies = self.built.solver.energies()
         stored = energies["elastic_energy"] + abs(energies["kinetic_energy"])
         rows = self.record["elastic_energy"] if self._begun else np.zeros(0)
@@ -89,7 +89,7 @@ class PartStill(PartStatics, GrainRig):
         return self.unbalanced() < NODES_AT_REST and self.balance().largest < AT_REST
 
     def _balance_of_all(self) -> Balance:
-        """Balance beside the largest force of a part or of a fluid, or the weight."""
+        """Return the balance relative to the largest force of a part or fluid, or to the weight."""
         own = [math.hypot(*part.force) for part in self._all_parts]
         self._asked_force = max([*own, self.weight, self._force_of_fluids])
         found, self._asked_force = self.balance(), None
@@ -109,7 +109,7 @@ class PartStill(PartStatics, GrainRig):
         return float(largest * specimen.equal_diameter * specimen.thickness)
 
     def _stand(self) -> None:
-        """Stop what is driven, if a loading has begun."""
+        """Stop the driven parts, if a loading has begun."""
         if self._recorder.loading is not None:
             self._drive(prescribed(0.0))
 
@@ -193,7 +193,7 @@ class PartStill(PartStatics, GrainRig):
     # Damping
 
     def _damped_stage(self, begin: Callable[[], Span], over: Callable[[], bool], text: str) -> bool:
-        """A stage that may put damping on, which then is what it was."""
+        """Run a stage that may change the damping, and restore the damping afterwards."""
         try:
             entered = self._stage(begin, over, text)
         finally:
@@ -243,7 +243,7 @@ class PartStill(PartStatics, GrainRig):
 
     @property
     def _most_borne(self) -> str:
-        """The part with the largest force, in words."""
+        """Return the part with the largest force, in words."""
         parts = self._all_parts
         if not parts:
             return "no part bears"
@@ -268,7 +268,7 @@ class PartStill(PartStatics, GrainRig):
             )
 
     def _require_loaded(self, stage: str) -> None:
-        """Refuse a stage of what loads before anything does."""
+        """Reject a stage of driven parts before any part is driven."""
         self._require_scene(stage)
         if self._recorder.loading is None:
             raise InputError(f"{stage}: loading = none, must have begun; call load or stress_to")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tessellations of Neper, ``.tess`` in the plane, and what those in space share with them.
+"""Tessellations of Neper: 2D ``.tess`` files, and functions that 3D files share with them.
 
-Lengths in the file's unit. The format is that of Neper's documentation, "Tessellation File".
+Lengths in the file's unit. Neper's documentation describes the format, "Tessellation File".
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ _ROUNDED = 1e-9
 
 @dataclass(frozen=True)
 class PlaneTess:
-    """A tessellation in the plane.
+    """A 2D tessellation.
 
     Attributes:
         vertices: Rows x, y.
         cells: Vertices of each cell, in the order of their ring.
         centres: Seeds of the cells, rows x, y; None if the file has none.
-        radii: Radii of discs about them whose Laguerre cells these may be.
+        radii: Radii of discs about the seeds whose Laguerre cells these may be.
     """
 
     vertices: FloatArray
@@ -83,9 +83,9 @@ class PlaneTess:
         return PlaneTess(scale * self.vertices, self.cells, centres, radii)
 
     def outline(self) -> FloatArray | None:
-        """Corners of the outline, counter-clockwise; None if it is not one convex ring.
+        """Return the corners of the outline, counter-clockwise; None if it is not one convex ring.
 
-        Those of a rectangle along x and y are made exact and begin at the lower left.
+        Corners of a rectangle along x and y are made exact and begin at the lower left.
         """
         count: dict[tuple[int, int], int] = {}
         for cell in self.cells:
@@ -136,8 +136,7 @@ def read(path: Path) -> PlaneTess:
     """Read a tessellation.
 
     Raises:
-        InputError: for a file that cannot be read, is none in the plane, or is broken: with its
-            line.
+        InputError: for a file that cannot be read, is not 2D, or is broken: with its line.
     """
     words = Words(path, "tess")
     dimension = tess_dimension(words)
@@ -197,15 +196,15 @@ def plane_of(rows: FloatArray) -> tuple[FloatArray, float]:
 def radii_of(
     weights: FloatArray, mean: float, away: FloatArray | float = 0.0
 ) -> tuple[FloatArray, ...]:
-    """Radii of discs or spheres whose Laguerre cells those of the seeds may be.
+    """Return radii of discs or spheres at the seeds whose Laguerre cells may be the file's cells.
 
-    Neper's weights are radii; files of others may hold their squares. Cells stay the same if all
-    squares grow alike, which they do until the discs have the size of the cells.
+    Neper's weights are radii; other programs may store their squares. Cells do not change if the
+    same number is added to all squares. This is done until the discs have the size of the cells.
 
     Args:
-        weights: Those of the seeds.
+        weights: Weights of the seeds.
         mean: Square of the radius of a disc or sphere of the mean cell's size.
-        away: Squares of how far the seeds lie from the plane of the cells.
+        away: Squares of the distances of the seeds from the plane of the cells.
     """
     found = []
     for squares in (weights * np.abs(weights) - away, weights - away):
@@ -241,7 +240,7 @@ def vertex_rows(words: Words) -> FloatArray:
 
 
 def pass_edges(words: Words, vertices: int) -> None:
-    """Pass the edges, which the faces tell again."""
+    """Skip the edges, which the faces repeat."""
     words.expect("**edge")
     for edge in range(1, words.whole("edges", 3, _MOST) + 1):
         words.whole(f"edge {edge}: number", edge, edge)

@@ -97,7 +97,7 @@ def _line(chain: Chain, plan: _Plan) -> FloatArray:
 
 
 def _smoothed(raster: FloatArray, count: int) -> FloatArray:
-    """Corners an even way apart, and more of them where the line would be too far off."""
+    """Return corners at even distances, and more of them where the line would be too far off."""
     if np.ptp(raster, axis=0).min() == 0.0:
         return raster[[0, -1]]
     smoothed = [_filtered(raster, passes) for passes in _PASSES]
@@ -158,7 +158,7 @@ def _at(line: FloatArray, way: FloatArray, nodes: FloatArray) -> FloatArray:
 
 
 def _area(line: FloatArray) -> float:
-    """Area left of a line, up to what depends on its ends alone."""
+    """Return the area left of a line, except for a part that depends on its ends only."""
     x, y = (line - line[0]).T
     return 0.5 * float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
 
