@@ -227,6 +227,16 @@ def test_sizes_are_advice() -> None:
     assert code == 0 and text.endswith(" warnings\n")
 
 
+def test_old_words_of_messages_are_listed(tree: Path) -> None:
+    write(tree / "py/flexpm/low/d.py", 'def f(a):\n    "It bears."\n    g(f"{a} bears nothing")\n')
+    text = '// it bears\nvoid f() { refuse("mantle", "no mantle " "here"); }\n'
+    write(tree / "pkg/flexpm/kernel/low/a.cpp", text)
+    code, output = run("words.py", tree)
+    assert code == 0 and output.endswith("words: 2 old words\n")
+    assert "py/flexpm/low/d.py:3: bears: {} bears nothing" in output
+    assert "pkg/flexpm/kernel/low/a.cpp:3: mantle: no mantle" in output
+
+
 @pytest.mark.parametrize("lines", [25, 26])
 @pytest.mark.parametrize("head", ["void A::action()", "bool L::go(int a,\n\tint b)"])
 def test_a_long_body_of_an_adapter_is_a_warning(tree: Path, head: str, lines: int) -> None:
