@@ -15,17 +15,17 @@ public:
 	RENDERS(LaguerreCell);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_STATICATTRS(Gl1_LaguerreCell, GlShapeFunctor,
-		"Draws a :yref:`LaguerreCell`: its triangles filled, its outline, and its mesh if asked; of a polyhedron its faces and edges, and the section where a plane "
-		"lays a solid open. A scale beside the specimen says what the colours stand for; faces of solids are darker the more they are turned away, sections are not.",
+		"Displays a :yref:`LaguerreCell`: its triangles filled, its outline, and its mesh on request; of a polyhedron its faces and edges, and the section where a plane "
+		"cuts a 3D specimen. A scale next to the specimen shows the meaning of the colours. Faces of polyhedra are darker the more they face away, sections are not.",
 		((bool, mesh, false,, "Draw the triangles' edges."))
-		((Real, scale, 1.,, "Displacements are drawn this many times larger [-]."))
-		((string, colour, "shape",, "What colours a grain: ``shape``, the colour of its shape; ``stress_xx``, ``stress_yy`` or ``stress_xy``, of solids also ``stress_zz``, ``stress_yz`` or ``stress_xz``, its mean stress (tension positive); "
+		((Real, scale, 1.,, "Scale factor of the displacements [-]."))
+		((string, colour, "shape",, "Quantity that colours a grain: ``shape``, the colour of its shape; ``stress_xx``, ``stress_yy`` or ``stress_xy``, in 3D also ``stress_zz``, ``stress_yz`` or ``stress_xz``, its mean stress (tension positive); "
 			"``displacement`` of its centre; ``damage``, the mean over the points of its bonds; ``mineral``; ``fragment``, the largest pale. Any other word is ``shape``."))
-		((bool, autoRange, true,, "Set :yref:`Gl1_LaguerreCell.range` to the least and the largest value of each picture."))
-		((Vector2r, range, Vector2r::Zero(),, "Values of both ends of the scale [Pa], [m] or [-]; beside the specimen they stand in MPa and mm."))
-		((Vector3r, cutNormal, Vector3r::Zero(),, "Normal of a plane that lays a solid open: what lies beyond the plane is not drawn, nor are cracks there, and the section is coloured as the grains. Zero: no plane."))
+		((bool, autoRange, true,, "Set :yref:`Gl1_LaguerreCell.range` to the smallest and largest value of each frame."))
+		((Vector2r, range, Vector2r::Zero(),, "Values of both ends of the scale [Pa], [m] or [-]; next to the specimen they are in MPa and mm."))
+		((Vector3r, cutNormal, Vector3r::Zero(),, "Normal of a plane that cuts a 3D specimen: grains and cracks beyond the plane are hidden, and the section is coloured like the grains. Zero: no plane."))
 		((Real, cutOffset, 0.,, "Distance of that plane from the origin along the normal [m]."))
-		((Vector3r, textColor, Vector3r::Ones(),, "Colour of the scale's numbers: red, green and blue, 0 to 1."))
+		((Vector3r, textColor, Vector3r::Ones(),, "Colour of the numbers of the scale: red, green and blue, 0 to 1."))
 	);
 	// clang-format on
 

@@ -15,7 +15,7 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(GrainMat, ElastMat,
 		"Elastic grain with bilinear, frictional contacts [Azevedo2022]_. :yref:`young<ElastMat.young>` and "
-		":yref:`poisson<ElastMat.poisson>` are those of the grain [Pa], [-].",
+		":yref:`poisson<ElastMat.poisson>` are properties of the grain [Pa], [-].",
 		((Real, normalStiffness, 1.8e14,, "Normal stiffness of a contact per area K_n, Eq. 22 [Pa/m]."))
 		((Real, shearRatio, 0.28,, "Shear over normal stiffness eta, Eq. 23 [-]."))
 		((Real, tensileStrength, 8.5e6,, "Tensile strength of a contact point, Eq. 24 [Pa]."))

@@ -26,20 +26,20 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LaguerreCell, Shape,
-		"Grain meshed with constant-strain triangles, or tetrahedra in space. Its state lives in :yref:`GrainSolver`; the arrays are views "
+		"Grain meshed with constant-strain triangles, or tetrahedra in 3D. Its state lives in :yref:`GrainSolver`; the arrays are views "
 		"of it (no copy), valid until the solver assembles or loads another specimen. Nodes are numbered corners first "
-		"(counter-clockwise in the plane), then the centre, then the inner ring. Vectors have d components, 2 or 3.",
+		"(counter-clockwise in 2D), then the centre, then the inner ring. Vectors have d components, 2 or 3.",
 		((int, grain, -1, Attr::readonly, "Number of the grain in the solver [-]."))
 		, createIndex();
-		, .add_property("positions", &LaguerreCell::positions, "Node positions, (n, d) [m]; read-only, a copy in space.")
+		, .add_property("positions", &LaguerreCell::positions, "Node positions, (n, d) [m]; read-only, a copy in 3D.")
 		.add_property("displacements", &LaguerreCell::displacements, "Node displacements from the bonded state, (n, d) [m]; of a rigid polyhedron a copy, read-only.")
 		.add_property("velocities", &LaguerreCell::velocities, "Node velocities, (n, d) [m/s, or m per step with scaled masses]; of a rigid polyhedron a copy, read-only.")
 		.add_property("forces", &LaguerreCell::forces, "Nodal forces of the last step without damping, (n, d) [N]; of a rigid polyhedron a copy, with the sum of the others at the centre.")
 		.add_property("held", &LaguerreCell::held, "1 where the velocity component is prescribed, (n, d) [-]; of a rigid grain the centre's counts.")
-		.add_property("triangles", &LaguerreCell::triangles, "Node numbers of each triangle, counter-clockwise; of a polyhedron those of its faces, seen from outside.")
-		.add_property("tetrahedra", &LaguerreCell::tetrahedra, "Node numbers of each tetrahedron, the centre first; none in the plane.")
-		.add_property("vertices", &LaguerreCell::vertices, "Number of corners; also the number of the centre node [-].")
-		.add_property("rigid", &LaguerreCell::rigid, "The grain moves as one body; its nodes follow the centre.")
+		.add_property("triangles", &LaguerreCell::triangles, "Node indices of each triangle, counter-clockwise; of a polyhedron the triangles of its faces, seen from outside.")
+		.add_property("tetrahedra", &LaguerreCell::tetrahedra, "Node indices of each tetrahedron, the centre first; empty in 2D.")
+		.add_property("vertices", &LaguerreCell::vertices, "Number of corners; also the index of the centre node [-].")
+		.add_property("rigid", &LaguerreCell::rigid, "The grain is rigid; its nodes follow the centre.")
 		.add_property("parentGrain", &LaguerreCell::parentGrain, "Number of the grain of the rock that this is, or is an inner particle of [-].")
 		.def("setMotion", &LaguerreCell::setMotion, (boost::python::arg("velocity"), boost::python::arg("spin")),
 			"Velocity of the centre [m/s, or m per step with scaled masses] and angular velocity [rad/s, or rad per step] of a rigid grain; "

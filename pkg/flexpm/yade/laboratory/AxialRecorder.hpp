@@ -43,7 +43,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(AxialRecorder, GlobalEngine,
 		"Records stress, strain, cracks and energies of an axial test at each measured step of :yref:`GrainSolver` (its measurePeriod, "
 		"as both must look at the same steps) and stops the simulation when the test is over. Place it after the solver.",
-		((shared_ptr<TestFrame>, frame, shared_ptr<TestFrame>(new RectangleFrame),, "Where load and strains come from: a :yref:`RectangleFrame`, a :yref:`DiscFrame` or a :yref:`PartFrame`; of a solid an :yref:`EndFrame`, a :yref:`SolidDiscFrame` or a :yref:`SolidPartFrame`."))
+		((shared_ptr<TestFrame>, frame, shared_ptr<TestFrame>(new RectangleFrame),, "Source of load and strains: a :yref:`RectangleFrame`, a :yref:`DiscFrame` or a :yref:`PartFrame`; in 3D an :yref:`EndFrame`, a :yref:`SolidDiscFrame` or a :yref:`SolidPartFrame`."))
 		((vector<shared_ptr<Gauge>>, gauges,, Attr::hidden, "Readings that the record has, too."))
 		((shared_ptr<LoadingController>, loading,,, "What drives the specimen, for the record of its velocity; None: the velocity factor is 1."))
 		((string, controlled,,, "Column that a :yref:`ServoController` makes follow its set point, which is recorded, too: a gauge's, load, lateral_strain; empty: none."))
@@ -54,19 +54,19 @@ public:
 		((Real, maxStrain, 1e300,, "The test is over at this axial strain or above [-]."))
 		((Real, plateauStrain, 0.,, "The test is over once the stress above the confinement has been constant, within 2 %, over this axial strain; 0: a plateau does not end it [-]."))
 		((int, plateauFrom, 0,, "Index of the first row that may belong to a plateau [-]."))
-		((bool, fromNow, false, Attr::triggerPostLoad, "Set it to count strains, and what gauges read, from the present state of the scene on instead of from the bonded one; it is false again at once."))
+		((bool, fromNow, false, Attr::triggerPostLoad, "Set it to measure strains and gauge readings from the present state of the scene instead of the bonded state; it is reset to false immediately."))
 		((Vector2r, zero, Vector2r::Zero(), Attr::readonly, "Axial and lateral strain that count as zero [-] |yupdate|."))
 		((Real, stress, 0., Attr::readonly, "Axial stress of the last row [Pa] |yupdate|."))
 		((Real, differential, 0., Attr::readonly, "The same above the confinement [Pa] |yupdate|."))
 		((Real, strain, 0., Attr::readonly, "Axial strain of the last row [-] |yupdate|."))
-		((Real, peak, 0.,, "Largest stress above the confinement so far; a fall is one from here [Pa] |yupdate|."))
-		((flexpm::TestState, state, flexpm::TestState::running,, "Whether the test is over, and why: running, past_peak, least_strain_reached, largest_strain_reached or plateau_reached. Set it to running to go on |yupdate|."))
+		((Real, peak, 0.,, "Largest stress above the confining pressure until now, the reference of a stress drop [Pa] |yupdate|."))
+		((flexpm::TestState, state, flexpm::TestState::running,, "Whether the test is over, and why: running, past_peak, least_strain_reached, largest_strain_reached or plateau_reached. Set it to running to continue |yupdate|."))
 		((vector<Real>, values,, Attr::hidden, "The record, row after row [SI units]."))
 		, /* ctor */
 		, .add_property("names", &AxialRecorder::names, "Names of the record's columns.")
 		.add_property("rows", &AxialRecorder::rows, "The record, (rows, columns); a copy.")
-		.add_property("gauges", &AxialRecorder::gaugeList, "The gauges whose readings the record has, too; addGauge adds one.")
-		.def("addGauge", &AxialRecorder::addGauge, (boost::python::arg("gauge")), "Record what a :yref:`Gauge` reads in a column of its name, before the first row.")
+		.add_property("gauges", &AxialRecorder::gaugeList, "Gauges whose readings are recorded; addGauge adds a gauge.")
+		.def("addGauge", &AxialRecorder::addGauge, (boost::python::arg("gauge")), "Record the readings of a :yref:`Gauge` in a column with its name; call it before the first row.")
 		.def("lostGauges", &AxialRecorder::lostGauges, "Names of the gauges that read a node of a grain that has been erased.")
 		.def("reading", &AxialRecorder::reading, (boost::python::arg("gauge")), "What the gauge of this name reads in the present state, before the first row, too [m, -, or as Gauge.reads].")
 		.def("scales", &AxialRecorder::scales, "Scales of the test by name: crossing_steps [-], modulus and strength [Pa], height and width [m]; damage_share, the least part of a fracture energy that damage takes, and failure_strain, at which a specimen between parts would fail as a whole [-]; lowest_strength, that of the weakest contacts [Pa].")

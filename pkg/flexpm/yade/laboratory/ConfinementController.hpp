@@ -16,8 +16,8 @@ protected:
 public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(ConfinementController, PressureController,
-		"Presses on sides of the specimen itself; the pressure follows the deforming edges, or the triangles of a solid. Place it before :yref:`GrainSolver`.",
-		((vector<int>, sides, (vector<int> { 1, 3 }),, "Sides of the outline; of a rectangle 0 bottom, 1 right, 2 top, 3 left; of a box also 4 front, 5 back; of a cylinder 0 bottom, 1 mantle, 2 top [-]."))
+		"Applies a pressure to sides of the specimen; the pressure follows the deforming edges, or triangles in 3D. Place it before :yref:`GrainSolver`.",
+		((vector<int>, sides, (vector<int> { 1, 3 }),, "Sides of the outline; of a rectangle 0 bottom, 1 right, 2 top, 3 left; of a box also 4 front, 5 back; of a cylinder 0 bottom, 1 lateral surface, 2 top [-]."))
 	);
 	// clang-format on
 };

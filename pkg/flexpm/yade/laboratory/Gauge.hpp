@@ -34,14 +34,14 @@ private:
 public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(Gauge, Serializable,
-		"Reads how far two nodes of grains move apart, as an opening or a strain, how far a plate moves, or the mean way of nodes; :yref:`AxialRecorder` records it under its name. GrainSolver.gaugePoints and GrainSolver.sectionNodes find the nodes.",
+		"Reads the opening or strain between two nodes of grains, the displacement of a plate, or the mean displacement of nodes; :yref:`AxialRecorder` records it as a column. GrainSolver.gaugePoints and GrainSolver.sectionNodes find the nodes.",
 		((string, name,,, "Name of the column."))
-		((int, first, -1,, "Node at the first place, as GrainSolver.gaugePoints gives it [-]."))
-		((int, second, -1,, "Node at the second place [-]."))
-		((int, plate, -1,, "Number of a plate whose way is read instead [-]."))
+		((int, first, -1,, "Node at the first position, as GrainSolver.gaugePoints gives it [-]."))
+		((int, second, -1,, "Node at the second position [-]."))
+		((int, plate, -1,, "Index of a plate whose displacement is read instead [-]."))
 		((string, reads,,, "What is read of that plate instead of its way: crosshead, the way of its crosshead; machine_energy, stored in the spring between both [J]; contact_angle, of a disc in a jaw [rad]; angle, by which a seated plate is turned from square to its normal, in space its size [rad]."))
-		((vector<int>, nodes,,, "Nodes whose mean way is read instead, as GrainSolver.sectionNodes gives them [-]."))
-		((Vector3r, direction, Vector3r::UnitX(),, "Direction of the opening or the way, a unit vector [-]."))
+		((vector<int>, nodes,,, "Nodes whose mean displacement is read instead, as GrainSolver.sectionNodes gives them [-]."))
+		((Vector3r, direction, Vector3r::UnitX(),, "Direction of the opening or displacement, a unit vector [-]."))
 		((Real, zero, 0.,, "What it has opened, or the plate has moved, when it began to count [m]."))
 		((Real, length, 0.,, "Length to which a strain refers; 0: the opening itself [m]."))
 	);

@@ -19,17 +19,17 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LoadingController, BoundaryController,
 		"Base of engines that load a specimen at a velocity. Not to be used directly.",
 		((Real, velocityFactor, 1.,, "Present velocity over the velocity that is set, which is the slowest; :yref:`LoadingRateController` and :yref:`ServoController` write it, the latter below 0 where the ends go back [-] |yupdate|."))
-		((bool, undampedLoading, false,, "Start all grains with the velocities of the elastic solution, let these follow the velocity of the loading, and let damping act only on what grains move beyond them."))
-		((int, renewPeriod, 1000,, "Steps after which these velocities are found anew, if joints have begun or ceased to slide or, under loading by parts, points have cracked [-]."))
+		((bool, undampedLoading, false,, "Start all grains with the velocities of the elastic solution, let these follow the velocity of the loading, and let damping act only on the deviation from them."))
+		((int, renewPeriod, 1000,, "Steps after which these velocities are recomputed, if joints have begun or ceased to slide or, under loading by parts, points have cracked [-]."))
 		((long, renewedAt, 0, Attr::hidden, "Step at which that was last looked for [-]."))
 		((int, seenSoftened, 0, Attr::hidden, "Points that had softened then [-]."))
 		((int, seenSliding, 0, Attr::hidden, "Contacts of joints that slid then [-]."))
 		((Real, seenFactor, 0., Attr::hidden, "The factor at the last step; 0 before the first [-]."))
-		((vector<int>, heldBefore,, Attr::hidden, "Components that were held before preload() took hold of all [-]."))
+		((vector<int>, heldBefore,, Attr::hidden, "Components that were fixed before preload() fixed all [-]."))
 		, /* ctor */
 		, .def("preload", &LoadingController::preload, (boost::python::arg("share"), boost::python::arg("steps")),
-			"Take hold of all nodes between driven ends: that many steps take the specimen along its elastic solution to this share of the load at which the first contact point leaves its elastic branch.")
-		.def("release", &LoadingController::release, "Release the nodes after those steps; the top goes on at the velocity.")
+			"Prescribe all nodes between driven ends: within this number of steps the specimen follows its elastic solution to this share of the load at which the first contact point leaves its elastic branch.")
+		.def("release", &LoadingController::release, "Release the nodes after these steps; the top continues at the velocity.")
 	);
 	// clang-format on
 

@@ -21,7 +21,7 @@ protected:
 public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(PressureController, BoundaryController,
-		"Lets rigid plates, which :yref:`GrainSolver` holds, move under a pressure, each on its own along its normal; several on a "
+		"Moves rigid plates of :yref:`GrainSolver` under a pressure, each independently along its normal; several on a "
 		"side make a membrane. :yref:`PlateController` moves plates at a velocity. Place it before :yref:`GrainSolver`.",
 		((vector<int>, plates,,, "Numbers of the plates, as GrainSolver.addSidePlates and addTouchingPlate return them [-]."))
 		((Real, pressure, 0.,, "Pressure, of a plate on its width, compressive positive [Pa]."))

@@ -15,8 +15,8 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(ReleaseController, BoundaryController,
-		"Lets forces act on nodes of the grains, as those that have been excavated did: GrainSolver.wallForces tells them before. "
-		"Their part goes from one value to another. Place it before :yref:`GrainSolver`.",
+		"Applies the forces of excavated grains to nodes of the remaining grains; GrainSolver.wallForces returns them beforehand. "
+		"Their share changes from one value to another. Place it before :yref:`GrainSolver`.",
 		((vector<int>, nodes,,, "Nodes, ascending, as GrainSolver.wallForces returns them [-]."))
 		((vector<Vector3r>, forces,,, "Force on each, x and y [N]."))
 		((Real, part, 0.,, "Part of the forces to which they go [-]."))

@@ -37,7 +37,7 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(TestFrame, Serializable,
-		"Base of what tells an :yref:`AxialRecorder` where load and strains come from. Not to be used directly.",
+		"Base of the sources of load and strains of an :yref:`AxialRecorder`. Not to be used directly.",
 	);
 	// clang-format on
 };
@@ -103,20 +103,20 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PartFrame, TestFrame,
-		"Plates and node sets that hold and load a specimen of any outline, as :yref:`GrainSolver` numbers them.",
+		"Plates and node sets that fix and load a specimen of any outline, by their indices in :yref:`GrainSolver`.",
 		((vector<int>, driven,,, "Plates that load it [-]."))
-		((vector<int>, holding,,, "Plates that hold it against them [-]."))
+		((vector<int>, holding,,, "Plates that resist them [-]."))
 		((vector<int>, drivenSets,,, "Node sets that load it [-]."))
-		((vector<int>, backSets,,, "Those that turn the other way [-]."))
-		((vector<int>, holdingSets,,, "Node sets that hold it against a direction [-]."))
-		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven parts load, a unit vector; in 2D z = 1: node sets turn, and the load is the sum of their moments [N m], the displacement their angle [rad] [-]."))
-		((bool, turns, false,, "In 3D: node sets turn about the direction."))
+		((vector<int>, backSets,,, "Node sets that rotate in the opposite sense [-]."))
+		((vector<int>, holdingSets,,, "Node sets that resist a direction [-]."))
+		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven parts load, a unit vector; in 2D z = 1: node sets rotate, and the load is the sum of their moments [N m], the displacement their angle [rad] [-]."))
+		((bool, turns, false,, "In 3D: node sets rotate about the direction."))
 		((Real, area, 0.,, "Load over the record's stress [m2]."))
 		((Real, length, 0.,, "Displacement over the record's strain [m]."))
 		((Real, strength, 0.,, "Stress that the test may reach, roughly [Pa]."))
 		((Real, middle, 0.,, "In 3D: x of the middle of the bottom, where a notch opens [m]."))
-		((Real, reach, 0.,, "In 3D: distance from there to either side, of the lines whose parting is the column cmod [m]; 0: there is none."))
-		((vector<Real>, loadingScales,,, "Scales as the loading found the specimen, in the order of AxialRecorder.scales(); empty before it. Those of a broken one would be others."))
+		((Real, reach, 0.,, "In 3D: distance from there to either side, of the lines whose separation is the column cmod [m]; 0: no such column."))
+		((vector<Real>, loadingScales,,, "Scales of the specimen before the loading, in the order of AxialRecorder.scales(); empty until then. A broken specimen would have other scales."))
 		, /* ctor */
 		, .def("elasticState", &PartFrame::elasticState, (boost::python::arg("pressed"), boost::python::arg("pressures"), boost::python::arg("way"), boost::python::arg("load")),
 			"Where the scene's specimen would come to rest, if no contact broke further: with pressures [Pa] on the plates that are pressed, beside those that act now, and a way [m] or a load [N] (None: the way alone counts) of what is driven; of sets that turn an angle [rad] or a moment [N m]. The scene stays as it is. Returns the state as GrainSolver.snapshot() has it, forces and displacements of plates and node sets, way, load, the number of solutions, and the points that stick beyond their friction. In 3D the scene's specimen must be unloaded; way, load and the number of solutions come with shares: small states, of which the whole has factor times what each changes.")
@@ -145,9 +145,9 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(EndFrame, TestFrame,
-		"A solid between its ends, along z.",
+		"A 3D specimen between its ends, along z.",
 		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
-		((bool, twoPressures, false,, "A box is under one pressure across x and another one across y: the record has the larger one in the column second_confinement [Pa]."))
+		((bool, twoPressures, false,, "A box has different pressures across x and y: the column second_confinement has the larger pressure [Pa]."))
 	);
 	// clang-format on
 
@@ -160,7 +160,7 @@ class SolidDiscFrame : public DiscFrame {
 public:
 	~SolidDiscFrame() override;
 
-	YADE_CLASS_BASE_DOC(SolidDiscFrame, DiscFrame, "The name that :yref:`DiscFrame` of a solid has until version 0.4.");
+	YADE_CLASS_BASE_DOC(SolidDiscFrame, DiscFrame, "Name of the 3D :yref:`DiscFrame` until version 0.4.");
 };
 REGISTER_SAVED(SolidDiscFrame);
 
@@ -168,7 +168,7 @@ class SolidPartFrame : public PartFrame {
 public:
 	~SolidPartFrame() override;
 
-	YADE_CLASS_BASE_DOC(SolidPartFrame, PartFrame, "The name that :yref:`PartFrame` of a solid has until version 0.4.");
+	YADE_CLASS_BASE_DOC(SolidPartFrame, PartFrame, "Name of the 3D :yref:`PartFrame` until version 0.4.");
 };
 REGISTER_SAVED(SolidPartFrame);
 

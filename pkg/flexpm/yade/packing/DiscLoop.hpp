@@ -36,7 +36,7 @@ private:
 public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(DiscLoop, InteractionLoop,
-		"An :yref:`InteractionLoop` for packings of :yref:`spheres<Sphere>` that do not turn, in a plane or in space, without friction, under "
+		"An :yref:`InteractionLoop` for packings of :yref:`spheres<Sphere>` that do not rotate, in 2D or 3D, without friction, under "
 		":yref:`Law2_ScGeom_FrictPhys_CundallStrack`: the same forces to the last bit, from packed arrays. Pairs that begin or cease to touch, walls, "
 		"and contacts with a shear stiffness go through the functors. Radii and stiffnesses must not change while a pair stays as it is; one thread, "
 		":yref:`InsertionSortCollider`; no periodic cell, detection factor, sorting, energy tracking or :yref:`callbacks<InteractionLoop.callbacks>`.",

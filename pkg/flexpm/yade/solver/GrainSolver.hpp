@@ -158,15 +158,15 @@ public:
 		"Advances all grains by one step, in 2D or 3D: contact points, triangles or tetrahedra, nodes [Azevedo2022]_, Eqs. 1-19. Forces are "
 		"gathered per grain in a fixed order, so results do not depend on the number of threads. It mirrors the centres to "
 		":yref:`State.pos` and :yref:`State.vel`; no :yref:`InteractionLoop` is needed. Bonds and grains may be erased (``O.interactions.erase``, "
-		"``O.bodies.erase``): they are gone at the next step or the next call that asks for something, whichever is first. A step does not see "
-		"what a script still has a handle of; calls that ask do, and so does the check every checkPeriod steps. "
-		"A solid keeps its grains and bonds: a step refuses a scene from which a script has erased any.",
-		((flexpm::Assembly, assembly,, Attr::hidden, "The packed arrays of grains in 2D: the one home of their state."))
-		((flexpm::SolidState, space,, Attr::hidden, "The packed arrays of grains in 3D: the one home of their state."))
+		"``O.bodies.erase``): they are removed at the next step or the next query, whichever is first. A step does not see "
+		"what a script still has a handle of; queries do, and so does the check every checkPeriod steps. "
+		"In 3D grains and bonds must not be erased: the next step raises an error.",
+		((flexpm::Assembly, assembly,, Attr::hidden, "The packed arrays of grains in 2D, the only copy of their state."))
+		((flexpm::SolidState, space,, Attr::hidden, "The packed arrays of grains in 3D, the only copy of their state."))
 		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
 		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force [-]."))
-		((int, checkPeriod, 100,, "Steps between two checks for numbers that are not finite, contacts that are over, and what scripts have erased or replaced [-]."))
-		((int, mirrorPeriod, 1,, "Steps between two updates of the bodies' states, which the grains do not need [-]; flexpm.run takes that of the checks. With 1, the bonds and O.forces are updated, too, whenever the simulation stops."))
+		((int, checkPeriod, 100,, "Steps between two checks for numbers that are not finite, contacts that have ended, and bodies that scripts have erased or replaced [-]."))
+		((int, mirrorPeriod, 1,, "Steps between two updates of the bodies' states, which the grains do not need [-]; flexpm.run uses the period of the checks. With 1, the bonds and O.forces are updated, too, whenever the simulation stops."))
 		((int, touchPeriod, 10,, "Steps between two looks for discs that have come to touch [-]."))
 		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next check [-]."))
 		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
@@ -177,8 +177,8 @@ public:
 		((int, stepsToCome, 0, Attr::noSave, "Steps of O.step() that a loop has still to do: it stops after the last one [-] |yupdate|."))
 		((bool, bondsShown, false, Attr::noSave | Attr::hidden, "The bonds' members hold numbers."))
 		((bool, scaled, true, Attr::readonly, "Masses are scaled to the time step; they rise when new contacts need it."))
-		((bool, diverged, false, Attr::readonly | Attr::noSave, "A number was not finite any more at a check, faces of a solid had turned over in a step, or gravity had pulled a grain of a solid loose, which has stopped the simulation |yupdate|."))
-		((string, stopReason, "", Attr::readonly | Attr::noSave, "What has stopped it then, in one line |yupdate|."))
+		((bool, diverged, false, Attr::readonly | Attr::noSave, "The simulation was stopped: a number was not finite at a check, faces were inverted in a 3D step, or gravity had detached a grain in 3D |yupdate|."))
+		((string, stopReason, "", Attr::readonly | Attr::noSave, "Reason of this stop, in one line |yupdate|."))
 		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last look for erased bonds."))
 		, /* ctor */
 		, .def("assemble", &GrainSolver::assemble, (py::arg("input"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("joints") = py::list()),
@@ -189,73 +189,73 @@ public:
 		.def("scaleMasses", After<&GrainSolver::requireGrains, &GrainSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
 		.def("useRealMasses", After<&GrainSolver::requireGrains, &GrainSolver::useRealMasses>::call, "Use the real masses; returns the stable time step [s].")
 		.def("addSidePlates", After<&GrainSolver::requirePlane, &GrainSolver::addSidePlates>::call, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0., py::arg("seated") = false),
-			"Lay rigid plates on a side of the outline, side by side, with a layer of a stiffness per area before them (0: none) [Pa/m], seated ones to turn about the middle of their faces, and return their numbers. Scale the masses afterwards.")
+			"Place rigid plates side by side on a side of the outline, with a layer of a stiffness per area between (0: none) [Pa/m]; seated plates rotate about the middle of their faces. Return their indices. Scale the masses afterwards.")
 		.def("addTouchingPlate", After<&GrainSolver::requirePlane, &GrainSolver::addTouchingPlate>::call, (py::arg("normal"), py::arg("friction") = 0.),
-			"Lay a rigid plate against the outermost point, its normal pointing into the specimen, and return its number. Scale the masses afterwards.")
+			"Place a rigid plate against the outermost point, its normal pointing into the specimen, and return its index. Scale the masses afterwards.")
 		.def("addPatchPlate", After<&GrainSolver::requirePlane, &GrainSolver::addPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
-			"Lay a rigid plate of a length [m] against the part of the outline around a place [m], its normal pointing into the specimen (zero: that of the outline there), and return its number; strip and seated as above. Scale the masses afterwards.")
+			"Place a rigid plate of a length [m] against the part of the outline around a position [m], its normal pointing into the specimen (zero: the normal of the outline there), and return its index; strip and seated as above. Scale the masses afterwards.")
 		.def("addJawPlate", After<&GrainSolver::requirePlane, &GrainSolver::addJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
-			"Lay a rigid arc of a radius [m] around the rim of a disc of this centre [m], over an angle of the disc [rad] about a place on the rim [m], and return its number. Scale the masses afterwards.")
+			"Place a rigid arc of a radius [m] around the rim of a disc of this centre [m], over an angle of the disc [rad] about a position on the rim [m], and return its index. Scale the masses afterwards.")
 		.def("findSidePlate", After<&GrainSolver::requirePlane, &GrainSolver::findSidePlate>::call, (py::arg("side"), py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0., py::arg("seated") = false),
-			"Number of the one plate that addSidePlates has laid along a side with the same arguments, -1 if there is none.")
+			"Index of the single plate that addSidePlates has placed along a side with the same arguments, -1 without.")
 		.def("findPatchPlate", After<&GrainSolver::requirePlane, &GrainSolver::findPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
-			"Number of the plate that addPatchPlate has laid with the same arguments, -1 if there is none.")
+			"Index of the plate that addPatchPlate has placed with the same arguments, -1 without.")
 		.def("findJawPlate", After<&GrainSolver::requirePlane, &GrainSolver::findJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
-			"Number of the plate that addJawPlate has laid with the same arguments, -1 if there is none.")
+			"Index of the plate that addJawPlate has placed with the same arguments, -1 without.")
 		.def("holdEnds", After<&GrainSolver::requireSolid, &GrainSolver::holdEnds>::call, (py::arg("bonded") = false, py::arg("friction") = 0.),
-			"Take hold of the bottom and the top along z, which stay free across: of their nodes, or of rigid grains by plates, which pull as well if they are bonded. With a friction above 0 [-] by plates of any grains, to which they stick from now on as far as it bears. Scale the masses afterwards.")
-		.def("holdBottom", After<&GrainSolver::requireSolid, &GrainSolver::holdBottom>::call, (py::arg("plate") = false), "Take hold of the bottom alone in the same way, if it is not held, and of a place on it across; the top may bear a pressure meanwhile. plate: by a plate of any grains.")
-		.def("holdDisc", After<&GrainSolver::requireSolid, &GrainSolver::holdDisc>::call, (py::arg("jawRadius") = 0.), "Lay a smooth plate below a disc and one on top, which touch it, or jaws of a radius [m]. What they touch at first does not move along x, and one place of it not along y, else the disc would roll. Scale the masses afterwards.")
+			"Fix the bottom and the top along z, free across: by their nodes, or for rigid grains by plates, which also pull if they are bonded. With a friction above 0 [-] by plates for all grains, which stick to them from now on within the friction. Scale the masses afterwards.")
+		.def("holdBottom", After<&GrainSolver::requireSolid, &GrainSolver::holdBottom>::call, (py::arg("plate") = false), "Fix the bottom only in the same way, if it is free, and a position on it across; the top may be under a pressure meanwhile. plate: by a plate for all grains.")
+		.def("holdDisc", After<&GrainSolver::requireSolid, &GrainSolver::holdDisc>::call, (py::arg("jawRadius") = 0.), "Place smooth plates below and on top of a disc, or jaws of a radius [m]. The surface that they touch at first does not move along x, and a single position on it not along y, to prevent rolling. Scale the masses afterwards.")
 		.def("layLine", After<&GrainSolver::requireSolid, &GrainSolver::layLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false),
-			"Lay a plate that bears along a line across the depth, along y at x and z, with the stiffness of a strip of that width [m]: a roller on the bottom (side 0) or a head on top (2). pinned: it does not slide while it presses. Returns its number. Scale the masses afterwards.")
-		.def("findLine", After<&GrainSolver::requireSolid, &GrainSolver::findLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false), "Number of the plate that layLine has laid so; -1 without one.")
+			"Place a plate that carries load along a line across the depth, along y at x and z, with the stiffness of a strip of that width [m]: a roller on the bottom (side 0) or a head on top (2). pinned: it does not slide while it presses. Returns its index. Scale the masses afterwards.")
+		.def("findLine", After<&GrainSolver::requireSolid, &GrainSolver::findLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false), "Index of the plate that layLine has placed with the same arguments, -1 without.")
 		.def("layPatch", After<&GrainSolver::requireSolid, &GrainSolver::layPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
-			"Lay a plate against what lies of the outside in a box from low to high [m] and faces a normal, a unit vector that points into the specimen. friction: coefficient [-]; bonded: it pulls, too; strip: stiffness per area of a soft layer between, in series [Pa/m]; seated: it turns about the middle of its face, as on a spherical seat. Returns its number. Scale the masses afterwards.")
-		.def("findPatch", After<&GrainSolver::requireSolid, &GrainSolver::findPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false), "Number of the plate that layPatch has laid so; -1 without one.")
+			"Place a plate against the part of the surface in a box from low to high [m] that faces a normal, a unit vector that points into the specimen. friction: coefficient [-]; bonded: it also pulls; strip: stiffness per area of a soft layer between, in series [Pa/m]; seated: it rotates about the middle of its face, as on a spherical seat. Returns its index. Scale the masses afterwards.")
+		.def("findPatch", After<&GrainSolver::requireSolid, &GrainSolver::findPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false), "Index of the plate that layPatch has placed with the same arguments, -1 without.")
 		.def("layJaw", After<&GrainSolver::requireSolid, &GrainSolver::layJaw>::call, (py::arg("towards"), py::arg("ratio"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
-			"Lay a curved jaw against the mantle of a disc about the y axis, in a direction from that axis, before an angle of it [rad]. ratio: of its radius over the disc's, at least 1; friction: coefficient [-]; strip: as of layPatch. Returns its number. Scale the masses afterwards.")
-		.def("findJaw", After<&GrainSolver::requireSolid, &GrainSolver::findJaw>::call, (py::arg("towards"), py::arg("ratio"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.), "Number of the plate that layJaw has laid so; -1 without one.")
-		.def("freePlate", After<&GrainSolver::requireSolid, &GrainSolver::freePlate>::call, (py::arg("plate")), "Let a load move a plate along its normal, for :yref:`PressureController`; it stands until then. Scale the masses afterwards.")
+			"Place a curved jaw against the lateral surface of a disc about the y axis, in a direction from this axis, over an angle [rad]. ratio: of its radius to the radius of the disc, at least 1; friction: coefficient [-]; strip: as in layPatch. Returns its index. Scale the masses afterwards.")
+		.def("findJaw", After<&GrainSolver::requireSolid, &GrainSolver::findJaw>::call, (py::arg("towards"), py::arg("ratio"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.), "Index of the plate that layJaw has placed with the same arguments, -1 without.")
+		.def("freePlate", After<&GrainSolver::requireSolid, &GrainSolver::freePlate>::call, (py::arg("plate")), "Allow a load to move a plate along its normal, for :yref:`PressureController`; the plate is fixed until then. Scale the masses afterwards.")
 		.def("setMachine", After<&GrainSolver::requireGrains, &GrainSolver::setMachine>::call, (py::arg("plate"), py::arg("stiffness")),
-			"Lay the spring of a soft machine [N/m] behind a plate, along its normal. What drives the plate then drives its crosshead, the spring's other end.")
+			"Add the spring of a soft machine [N/m] behind a plate, along its normal. The loading then drives the crosshead, the other end of the spring.")
 		.def("gaugePoints", After<&GrainSolver::requireGrains, &GrainSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
-			"The nodes nearest to two places, each on its own side of the middle, and their distance [m], for :yref:`Gauge`.")
+			"The nodes nearest to two positions, each on its side of the middle, and their distance [m], for :yref:`Gauge`.")
 		.def("sectionNodes", After<&GrainSolver::requireGrains, &GrainSolver::sectionNodes>::call, (py::arg("place"), py::arg("direction"), py::arg("width")),
-			"The nodes in a band of a width [m] around a place along a direction, a unit vector, and their mean place along it [m], for :yref:`Gauge`.")
+			"The nodes in a band of a width [m] around a position along a direction, a unit vector, and their mean position along it [m], for :yref:`Gauge`.")
 		.def("fixTangential", After<&GrainSolver::requirePlane, &GrainSolver::fixTangential>::call, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
-		.def("nodePlaces", After<&GrainSolver::requireGrains, &GrainSolver::nodePlaces>::call, (py::arg("bonded") = false), "Nodes that a set may hold, (n,), all of deformable grains and the centres of rigid ones, and where they are, or were when bonded, (n, 2) or (n, 3) [m].")
+		.def("nodePlaces", After<&GrainSolver::requireGrains, &GrainSolver::nodePlaces>::call, (py::arg("bonded") = false), "Nodes available for sets, (n,): all nodes of deformable grains and the centres of rigid grains, and their positions, present or when bonded, (n, 2) or (n, 3) [m].")
 		.def("addNodeSet", After<&GrainSolver::requireGrains, &GrainSolver::addNodeSet>::call, (py::arg("nodes"), py::arg("x") = true, py::arg("y") = true, py::arg("z") = true),
-			"Hold nodes of nodePlaces at rest along the axes named, z in 3D alone, and return the number of their set.")
+			"Fix nodes of nodePlaces along the named axes, z only in 3D, and return the index of their set.")
 		.def("turnNodeSet", After<&GrainSolver::requireGrains, &GrainSolver::turnNodeSet>::call, (py::arg("set"), py::arg("about") = py::object()),
-			"Let a set turn about a point [m], or, in 2D with None, about the mean of its places, free to move: a moment alone acts.")
+			"Allow a set to rotate about a point [m], or, in 2D with None, about its mean position, free to move: then only a moment acts.")
 		.def("moveNodeSet", After<&GrainSolver::requireGrains, &GrainSolver::moveNodeSet>::call, (py::arg("set"), py::arg("velocity"), py::arg("spin") = Vector3r(Vector3r::Zero())),
-			"Move a set from the next step on at a velocity [m/s, or m per step with scaled masses], and turn it about its place at a spin [rad/s, or rad per step]; in 2D the third component of the velocity is the spin.")
-		.def("nodeSets", After<&GrainSolver::requireGrains, &GrainSolver::nodeSets>::call, "Each node set as a dictionary: nodes, axes that it holds, whether it floats, place of its pivot [m], displacement [m], angle [rad], force on the specimen [N], moment about the pivot [N m], work that it has done [J].")
+			"Move a set from the next step on at a velocity [m/s, or m per step with scaled masses], and rotate it about its position at a spin [rad/s, or rad per step]; in 2D the third component of the velocity is the spin.")
+		.def("nodeSets", After<&GrainSolver::requireGrains, &GrainSolver::nodeSets>::call, "Each node set as a dictionary: nodes, fixed axes, whether it floats, position of its pivot [m], displacement [m], angle [rad], force on the specimen [N], moment about the pivot [N m], work that it has done [J].")
 		.def("holdSide", After<&GrainSolver::requireGrains, &GrainSolver::holdSide>::call, (py::arg("side"), py::arg("x") = false, py::arg("y") = false, py::arg("z") = false),
-			"Keep a side of the outline from moving along the axes named: nodes of deformable grains; of rigid grains the centres across the side, and the edges or the middles of the faces along it. Sides of a solid: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig takes the ends, make plane strain of a box.")
+			"Fix a side of the outline along the named axes: nodes of deformable grains; of rigid grains the centres across the side, and the edges or the middles of the faces along it. Sides in 3D: 0 bottom, 1 right or lateral surface, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig controls the ends, give plane strain of a box.")
 		.def("addWall", After<&GrainSolver::requireGrains, &GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
-			"Lay a rigid plate apart from the specimen, its normal pointing to it, that the corners of any grain, in 3D of its surface, may come to touch, and return its number. Scale the masses afterwards.")
-		.add_property("gravity", After<&GrainSolver::requireGrains, &GrainSolver::gravity>::call, After<&GrainSolver::requireGrains, &GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2]; z in 3D alone. A solid from which it pulls a grain loose is not stepped any more.")
-		.def("plates", After<&GrainSolver::requireGrains, &GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], friction [-], whether it is bonded and pressed, place of its face [m], work that it has done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
-		.def("mirrorBodies", After<&GrainSolver::requireGrains, &GrainSolver::mirrorBodies>::call, "Update what YADE sees of the grains now, whatever mirrorPeriod is: states, bonds, forces.")
-		.def("resetEnergyBalance", After<&GrainSolver::requireGrains, &GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one. Of a solid before the first step alone.")
-		.def("elasticConstants", After<&GrainSolver::requireGrains, &GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of the unloaded grains by their linear solution: of a rectangle, or of a solid between smooth ends. The grains stay as they are.")
+			"Place a rigid plate at a distance from the specimen, its normal pointing to it, which the corners of any grain, in 3D of the surface, may touch, and return its index. Scale the masses afterwards.")
+		.add_property("gravity", After<&GrainSolver::requireGrains, &GrainSolver::gravity>::call, After<&GrainSolver::requireGrains, &GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2]; z only in 3D. A 3D specimen from which it detaches a grain stops.")
+		.def("plates", After<&GrainSolver::requireGrains, &GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], friction [-], whether it is bonded and pressed, position of its face [m], work that it has done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
+		.def("mirrorBodies", After<&GrainSolver::requireGrains, &GrainSolver::mirrorBodies>::call, "Update YADE's view of the grains now, independently of mirrorPeriod: states, bonds, forces.")
+		.def("resetEnergyBalance", After<&GrainSolver::requireGrains, &GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one. In 3D only before the first step.")
+		.def("elasticConstants", After<&GrainSolver::requireGrains, &GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of the unloaded grains by their linear solution: of a rectangle, or of a 3D specimen between smooth ends. The grains stay as they are.")
 		.def("energies", After<&GrainSolver::requireGrains, &GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
 		.def("snapshot", After<&GrainSolver::requireGrains, &GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays): of what exists, and the record of erased bonds.")
 		.def("cracks", After<&GrainSolver::requireGrains, &GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
 		.def("wallForces", After<&GrainSolver::requirePlane, &GrainSolver::wallForces>::call, (py::arg("grains")), "Nodes on which some grains act from outside of them, and their forces there, x and y, at the last step [N], for :yref:`ReleaseController`.")
-		.def("parting", After<&GrainSolver::requirePlane, &GrainSolver::parting>::call, "Largest growth of the distance between grains that were bonded to each other [m]: of any pair, and of those standing, of which neither is loose; loose: number of grains that no contact joins any more to what is held, which no pressure acts on.")
-		.def("counts", After<&GrainSolver::requireGrains, &GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, contacts that have come since, nodes, triangles or tetrahedra, mesh groups and boundary edges; nothing erased counts.")
+		.def("parting", After<&GrainSolver::requirePlane, &GrainSolver::parting>::call, "Largest growth of the distance between grains that were bonded to each other [m]: of any pair, and of standing pairs without a detached grain; loose: number of detached grains, without a path of contacts to a fixed part and without a pressure.")
+		.def("counts", After<&GrainSolver::requireGrains, &GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, new contacts, nodes, triangles or tetrahedra, mesh groups and boundary edges; nothing erased counts.")
 		.def("overlaps", After<&GrainSolver::requireGrains, &GrainSolver::overlaps>::call, (py::arg("smallest") = 1e-3),
-			"Pairs of grains whose polygons overlap by more than a part of the smaller one, by name: grains (n, 2), area that both cover [m^2], part of the smaller grain [-], bonded (once, not on a joint), facing (bonded, and the faces lie as they did), closed: normal force of the pair over its stiffness and the thickness, the area that this accounts for [m^2]. Of a solid the deepest overlap of grains that share no contact, which nothing keeps apart: depth [m], of_diameter, over the mean diameter [-], grains, a pair, and pairs, how many overlap.")
+			"Pairs of grains whose polygons overlap by more than a part of the smaller one, by name: grains (n, 2), area that both cover [m^2], part of the smaller grain [-], bonded (once, not on a joint), facing (bonded, and the faces lie as they did), closed: normal force of the pair over its stiffness and the thickness, the area that this accounts for [m^2]. In 3D the deepest overlap of grains without a common contact, which nothing separates: depth [m], of_diameter, over the mean diameter [-], grains, a pair, and pairs, how many overlap.")
 		.def("unbalanced", After<&GrainSolver::requireGrains, &GrainSolver::unbalanced>::call, "Ratio of the largest unbalanced force to the mean contact force [-], at the last measured step; forces on plates under a load count per grain before them.")
 		.def("crossingSteps", After<&GrainSolver::requireGrains, &GrainSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a disc, in 3D a ball, of the grains of a diameter [m] [-].")
 		.def("balance", After<&GrainSolver::requireGrains, &GrainSolver::balance>::call,
-			"How far the specimen is in balance as a whole, at the last step, as a dictionary. mean_stress: mean of its Cauchy stress, (xx, yy, xy), tension positive [Pa]; "
-			"of rigid grains by the contact forces and branches. outside_stress: what pressure, plates, held nodes and weight would make of it in balance [Pa]. "
-			"missing_force: sum of the net forces on all that is free to move, (x, y) [N]. plate_share: largest part of its load that "
-			"the specimen does not bear of a plate under one [-]. A wave sets the two stresses apart while unbalanced() is small.")
-		.def("clearPressure", After<&GrainSolver::requireGrains, &GrainSolver::clearPressure>::call, (py::arg("side")), "Take the pressure off a side of the outline.")
+			"Equilibrium of the total specimen at the last step, as a dictionary. mean_stress: mean of its Cauchy stress, (xx, yy, xy), tension positive [Pa]; "
+			"of rigid grains by the contact forces and branches. outside_stress: the mean stress in equilibrium with pressure, plates, fixed nodes and weight [Pa]. "
+			"missing_force: sum of the net forces on all free nodes and grains, (x, y) [N]. plate_share: largest share of the load of a plate that "
+			"the specimen does not carry [-]. In a wave the two stresses differ while unbalanced() is small.")
+		.def("clearPressure", After<&GrainSolver::requireGrains, &GrainSolver::clearPressure>::call, (py::arg("side")), "Remove the pressure from a side of the outline.")
 		.def("sideNodes", After<&GrainSolver::requirePlane, &GrainSolver::sideNodes>::call, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
 	);
 	// clang-format on

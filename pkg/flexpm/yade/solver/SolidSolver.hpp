@@ -10,7 +10,7 @@ class SolidSolver : public GrainSolver {
 public:
 	~SolidSolver() override;
 
-	YADE_CLASS_BASE_DOC(SolidSolver, GrainSolver, "The name that :yref:`GrainSolver` of a solid has until version 0.4.");
+	YADE_CLASS_BASE_DOC(SolidSolver, GrainSolver, "Name of the 3D :yref:`GrainSolver` until version 0.4.");
 };
 REGISTER_SAVED(SolidSolver);
 
