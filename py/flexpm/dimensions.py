@@ -37,7 +37,7 @@ class Feature:
 #: Features of one dimension; an option of ``flexpm run`` has its own name.
 FEATURES = {
     "thickness": Feature(
-        "thicknesses", 2, ("--thickness",), "leave it out, the sizes of a 3D specimen say it"
+        "thicknesses", 2, ("--thickness",), "leave it out, the sizes of a 3D specimen include it"
     ),
     "joints": Feature(
         "joints",
@@ -67,7 +67,7 @@ FEATURES = {
         "leave them out or take a 2D specimen; minerals of different strength are available",
     ),
     "holes": Feature(
-        "holes of the plane",
+        "holes in 2D shapes",
         2,
         ("holes of Specimen.rectangle and other shapes",),
         "leave them out, or take Specimen.polygon",
@@ -94,13 +94,13 @@ FEATURES = {
         "rough ends",
         3,
         ("end_friction", "--end-friction"),
-        "leave it out, ends are smooth, or lay platens with flexpm.PartRig",
+        "leave it out (ends are smooth), or place platens with flexpm.PartRig",
     ),
     "jaw_radius": Feature(
         "jaws of a named test",
         3,
         ("jaw_radius", "--jaw-radius"),
-        "lay jaws with flexpm.PartRig, or give a depth",
+        "place jaws with flexpm.PartRig, or give a depth",
     ),
 }
 

@@ -93,7 +93,10 @@ def _replaced(path: Path) -> Path | None:
     if stat.S_ISDIR(found.st_mode):
         raise IsADirectoryError(errno.EISDIR, "is a folder, must be a file", str(path))
     if stat.S_ISSOCK(found.st_mode) and _stream_of(found) is None:
-        raise InputError(f"file = {str(path)!r}, is a socket, must be a file, a device or a pipe")
+        raise InputError(
+            f"file = {str(path)!r}, is a socket, must be a file, a device or a pipe; choose "
+            "another path"
+        )
     return None
 
 
@@ -272,7 +275,7 @@ def read_json(path: Path) -> Any:
 
 
 def _refuse_constant(name: str) -> NoReturn:
-    raise ValueError(f"{name} is no number")
+    raise ValueError(f"{name} is not a finite number")
 
 
 def _finite(text: str) -> float:
@@ -297,9 +300,13 @@ def load_toml(path: Path, what: str) -> Table:
             f"{what} = {str(path)!r}, cannot be read ({error.strerror}); give a TOML file"
         ) from None
     except RecursionError:
-        raise InputError(f"{what} = {str(path)!r}, is nested too deeply") from None
+        raise InputError(
+            f"{what} = {str(path)!r}, is nested too deeply; use fewer levels of tables"
+        ) from None
     except ValueError as error:  # of TOML, of UTF-8, of a number or of a name
-        raise InputError(f"{what} = {str(path)!r}, is no valid TOML file: {error}") from None
+        raise InputError(
+            f"{what} = {str(path)!r}, is not a valid TOML file: {error}; correct the file"
+        ) from None
 
 
 def load_csv(path: Path, what: str) -> tuple[list[str], list[list[str]]]:
@@ -315,11 +322,17 @@ def load_csv(path: Path, what: str) -> tuple[list[str], list[list[str]]]:
             f"{what} = {str(path)!r}, cannot be read ({error.strerror}); give a file of flexpm"
         ) from None
     except (ValueError, csv.Error) as error:
-        raise InputError(f"{what} = {str(path)!r}, is no table: {error}") from None
+        raise InputError(
+            f"{what} = {str(path)!r}, is not a CSV table: {error}; give a file of flexpm"
+        ) from None
     if not lines or any(len(line) != len(lines[0]) for line in lines):
-        raise InputError(f"{what} = {str(path)!r}, must have rows as long as its header")
+        raise InputError(
+            f"{what} = {str(path)!r}, must have rows as long as its header; give a complete file"
+        )
     if len({*lines[0]}) < len(lines[0]):
-        raise InputError(f"{what} = {str(path)!r}, must have columns of different names")
+        raise InputError(
+            f"{what} = {str(path)!r}, must have columns of different names; rename a column"
+        )
     return lines[0], lines[1:]
 
 
@@ -343,7 +356,9 @@ def load_json(path: Path, what: str) -> Table:
     except (ValueError, RecursionError) as error:
         content, reason = None, f" ({error})"
     if not isinstance(content, dict):
-        raise InputError(f"{what} = {str(path)!r}, is no JSON table{reason}; give a file of flexpm")
+        raise InputError(
+            f"{what} = {str(path)!r}, is not a JSON table{reason}; give a file of flexpm"
+        )
     return content
 
 
@@ -378,8 +393,8 @@ def refuse_folders(folder: Path, names: Iterable[str]) -> None:
     for name in names:
         if (folder / name).is_dir():
             raise InputError(
-                f"out = {str(folder)!r}, holds a folder {name}, must be free for the file of this "
-                "name; choose another folder"
+                f"out = {str(folder)!r}, contains a folder {name}, must not: a file of this name "
+                "is written there; choose another folder"
             )
 
 

@@ -50,7 +50,7 @@ LENGTH = Bounds(above=0.0, at_least=1e-9, at_most=1e6)
 
 
 def require_number(
-    label: str, value: object, bounds: Bounds = ANY, unit: str = "", shown: str = ""
+    label: str, value: object, bounds: Bounds = ANY, unit: str = "", shown: str = "", why: str = ""
 ) -> float:
     """Return `value` as a finite float within its bounds, or raise InputError.
 
@@ -60,35 +60,41 @@ def require_number(
         bounds: Its range.
         unit: Unit for the message; empty for a number without a unit.
         shown: How the value is quoted, if not as Python would.
+        why: Reason of the bounds and remedy, for the message; empty: the remedy is the direction.
     """
     text = f"{label} = {shown or quoted(value)} {unit}".rstrip()
     if not _is_number(value, numbers.Real):
-        raise InputError(f"{text}, must be a number")
+        raise InputError(f"{text}, must be a number; write it without quotes and unit")
     try:
         number = float(value)  # type: ignore[arg-type]
     except OverflowError:  # an integer beyond the largest double
         number = math.inf
     if not math.isfinite(number):
-        raise InputError(f"{text}, must be finite")
+        raise InputError(f"{text}, must be finite; correct it")
     if rule := bounds.broken(number):
-        raise InputError(f"{text}, must be {rule}")
+        raise InputError(f"{text}, must be {rule}{f': {why}' if why else _towards(rule)}")
     return number
 
 
 def require_whole(label: str, value: object, bounds: Bounds = ANY) -> int:
     """Return `value` as a whole number within its bounds, or raise InputError."""
     if not _is_number(value, numbers.Integral):
-        raise InputError(f"{label} = {quoted(value)}, must be a whole number")
+        raise InputError(
+            f"{label} = {quoted(value)}, must be a whole number; write it without decimals, quotes "
+            "and unit"
+        )
     number: int = int(value)  # type: ignore[call-overload]  # numpy's are none for the kernel
     if rule := bounds.broken(number):
-        raise InputError(f"{label} = {quoted(number)}, must be {rule}")
+        raise InputError(f"{label} = {quoted(number)}, must be {rule}{_towards(rule)}")
     return number
 
 
 def require_flag(label: str, value: object) -> bool:
     """Return `value` as true or false, or raise InputError."""
     if not (isinstance(value, bool) or type(value).__name__ == "bool_"):  # numpy's
-        raise InputError(f"{label} = {quoted(value)}, must be true or false")
+        raise InputError(
+            f"{label} = {quoted(value)}, must be true or false; write it without quotes"
+        )
     return bool(value)
 
 
@@ -100,7 +106,7 @@ def require_threads(label: str, value: object) -> int:
 def require_table(label: str, value: object) -> Table:
     """Return `value` as a table, of a TOML file or a dictionary, or raise InputError."""
     if not (isinstance(value, Mapping) and all(isinstance(key, str) for key in value)):
-        raise InputError(f"{label} = {quoted(value)}, must be a table")
+        raise InputError(f"{label} = {quoted(value)}, must be a table; give keys with values")
     return dict(value)
 
 
@@ -114,14 +120,14 @@ def require_tables(label: str, value: object) -> list[Table]:
 def require_list(label: str, value: object) -> list[Any]:
     """Return `value` as a list, or raise InputError."""
     if not isinstance(value, list | tuple):
-        raise InputError(f"{label} = {quoted(value)}, must be a list")
+        raise InputError(f"{label} = {quoted(value)}, must be a list; put the values in brackets")
     return list(value)
 
 
 def require_text(label: str, value: object) -> str:
     """Return `value` as a text, or raise InputError."""
     if not isinstance(value, str):
-        raise InputError(f"{label} = {quoted(value)}, must be a text")
+        raise InputError(f"{label} = {quoted(value)}, must be a text; put it in quotes")
     return value
 
 
@@ -131,7 +137,7 @@ def require_name(label: str, value: object) -> str:
     if not (name and name.isprintable() and name == name.strip()):
         raise InputError(
             f"{label} = {quoted(value)}, must be a name of printable characters without blanks at "
-            "its ends"
+            "its ends; choose another name"
         )
     return name
 
@@ -149,10 +155,12 @@ def require_file_name(label: str, value: object, suffixes: Sequence[str] = ()) -
     if not (plain and 0 < len(name) <= _QUOTED):
         raise InputError(
             f"{label} = {quoted(value)}, must be the plain name of a file, at most {_QUOTED} "
-            "characters without / and without a dot in front"
+            "characters without / and without a leading dot; choose another name"
         )
     if suffixes and not name.endswith(tuple(suffixes)):
-        raise InputError(f"{label} = {quoted(value)}, must end in {', '.join(suffixes)}")
+        raise InputError(
+            f"{label} = {quoted(value)}, must end in {', '.join(suffixes)}; change the ending"
+        )
     return name
 
 
@@ -170,7 +178,8 @@ def require_one_of(label: str, value: object, choices: Sequence[object]) -> None
     """Raise InputError unless `value` is one of a few choices."""
     if not _is_among(value, choices):
         raise InputError(
-            f"{label} = {quoted(value)}, must be one of {', '.join(map(str, choices))}"
+            f"{label} = {quoted(value)}, must be one of {', '.join(map(str, choices))}; choose one "
+            "of them"
         )
 
 
@@ -179,6 +188,11 @@ def require_known(label: str, name: object, known: Sequence[str]) -> None:
     if not _is_among(name, known):
         hint = nearest(name, known) if isinstance(name, str) else ""
         raise InputError(f"{label} = {quoted(name)}, unknown{hint}; known are {', '.join(known)}")
+
+
+def _towards(rule: str) -> str:
+    """Remedy for a number out of its bounds."""
+    return f"; give a {'larger' if rule.startswith('>') else 'smaller'} value"
 
 
 def _is_number(value: object, kind: type) -> bool:

@@ -141,4 +141,4 @@ def test_other_readers_have_the_same_limit(read, name):
 @pytest.mark.parametrize("text", ['{"x": NaN}', '{"x": -Infinity}', '{"x": 1e999}', "[1]", "{"])
 def test_a_json_table_has_finite_numbers(tmp_path, text):
     (tmp_path / "it.json").write_text(text)
-    refusal("is no JSON table", load_json, tmp_path / "it.json", "it")
+    refusal("is not a JSON table", load_json, tmp_path / "it.json", "it")

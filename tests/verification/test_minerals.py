@@ -196,7 +196,8 @@ def test_values_of_the_rock_and_of_a_mineral_can_be_set():
     ):
         refusal(message, rock().with_set, [text])
     refusal(
-        "needs a material with", lambda: Material.from_dict(BASE).with_set(["hard.cohesion=1e6"])
+        "the material has no minerals",
+        lambda: Material.from_dict(BASE).with_set(["hard.cohesion=1e6"]),
     )
 
 
@@ -209,10 +210,10 @@ def changed(**changes):
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        (changed(fraction=0.5), "fractions = 0.9 in all, must sum up to 1"),
+        (changed(fraction=0.5), "fractions = 0.9 in all, must sum to 1"),
         (changed(fraction=-0.6), r"\[\[mineral\]\] 2 fraction = -0.6, must be > 0"),
         (changed(fraction="half"), "fraction = 'half', must be a number"),
-        (changed(name="a"), "'a', is there twice"),
+        (changed(name="a"), "'a', is given twice"),
         (changed(cohesoin=1e6), "cohesoin.*did you mean cohesion"),
         (changed(plane="strain"), "mineral b key = 'plane'"),
         (changed(cohesion=-1.0), "mineral b: material cohesion = -1.0 Pa"),
@@ -234,7 +235,9 @@ def test_inner_particles_refuse_minerals(model):
     sets = {"inner": {"normal_stiffness": K_SOFT, "shear_ratio": 0.3}}
     whole = Material.from_dict({**BASE, "elastic": sets, "mineral": [{"name": "a", "fraction": 1}]})
     for call in (flexpm.build, lambda *given: flexpm.run("uniaxial", *given)):
-        refusal("one kind of grain; use one of flexible, rigid", call, grid(), whole, model)
+        refusal(
+            "one type of grain; use one of the models flexible, rigid", call, grid(), whole, model
+        )
 
 
 @pytest.mark.parametrize("given", [[0], [0.0] * 24, [-1] * 24, [0, 1] * 13])

@@ -250,5 +250,5 @@ def test_a_run_that_is_stopped_goes_on_to_the_same_bits(core, tmp_path):
 def test_what_spheres_in_a_solid_do_not_have_is_refused(box):
     refusal("build: dynamic = True, must be False for", built_of, box, "jcfpm", dynamic=True)
     rig = flexpm.rig(built_of(box, "jcfpm"))
-    refusal("confine: pressure = 1e.06 Pa, must be of flexible", rig.confine, 1e6)
-    refusal("balance: specimen = box, must be of flexible", rig.balance)
+    refusal("confine: pressure = 1e.06 Pa, no pressure acts on 3D spheres", rig.confine, 1e6)
+    refusal("balance: specimen = box, no pressure acts on 3D spheres", rig.balance)

@@ -201,7 +201,7 @@ def test_a_folder_with_a_checkpoint_of_other_inputs_is_refused(small, tmp_path):
         ),
     )
     for settings, message in others:
-        with pytest.raises(flexpm.InputError, match="holds a checkpoint of another run") as caught:
+        with pytest.raises(flexpm.InputError, match="has a checkpoint of another run") as caught:
             flexpm.run("tension", small, out=tmp_path, **settings)
         assert message in str(caught.value)
         assert "\n" not in str(caught.value)
@@ -372,7 +372,7 @@ def write_as_another_build(folder: Path, scene: bytes, **entries: object) -> Non
 def test_a_checkpoint_of_another_build_is_said_to_be_one(small, copied, entries, told):
     write_as_another_build(copied, (copied / saved_in(copied)["scene"]).read_bytes(), **entries)
     line = refused(small, copied)
-    assert re.search(rf"written by another build of flexpm \({told}\), must be of this", line), line
+    assert re.search(rf"written by another build of flexpm \({told}\); choose", line), line
     assert line.endswith("or remove the file to start again")
 
 

@@ -134,7 +134,7 @@ def test_a_number_that_is_not_finite_stops_the_run(make, grain):
 def test_a_period_of_no_steps_is_refused(make, name):
     model = make()
     setattr(model.solver, name, 0)
-    with pytest.raises(RuntimeError, match=rf"GrainSolver\.{name} = 0, must be at least 1 step"):
+    with pytest.raises(RuntimeError, match=rf"GrainSolver\.{name} = 0, must be >= 1 step"):
         model.run(1)
 
 

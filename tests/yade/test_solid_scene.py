@@ -263,12 +263,12 @@ def test_handles_are_copied_and_say_what_is_not_theirs(solid, make):
     again.velocities[0, 2] = 4.0
     assert shape.velocities[0, 2] == 4.0
     assert (pickle.loads(pickle.dumps(bond.phys)).area == bond.phys.area).all()
-    with pytest.raises(ValueError, match="ends = of a solid, must be of the plane"):
+    with pytest.raises(ValueError, match="ends = 3D, must be 2D"):
         bond.geom.ends.any()
     make()
     flat = bonds()[0]
     for thing, name in ((flat.geom, "corners"), (flat.geom, "points"), (flat.phys, "forces")):
-        with pytest.raises(ValueError, match=f"{name} = of the plane, must be of a solid"):
+        with pytest.raises(ValueError, match=f"{name} = 2D, must be 3D"):
             getattr(thing, name)
     assert O.bodies[0].shape.tetrahedra == []
 
@@ -276,11 +276,11 @@ def test_handles_are_copied_and_say_what_is_not_theirs(solid, make):
 @pytest.mark.parametrize(
     ("change", "told"),
     [
-        ("O.bodies[3].material = wrapper.GrainMat()", r"O.bodies\[3\].material = another one"),
+        ("O.bodies[3].material = wrapper.GrainMat()", r"O.bodies\[3\].material = changed"),
         ("model.solver.addToScene()", "are in the scene already"),
         ("O.bodies.clear()", "SolidSolver|grains in O.bodies = 0"),
         ("wrapper.LaguerreCell(grain=10**6).positions", "grain = 1000000, is no grain"),
-        ("wrapper.LobattoPhys().forces", "contact = -1, is no contact"),
+        ("wrapper.LobattoPhys().forces", "contact = -1, does not exist"),
         ("model.solver.sideNodes(0)", "must be 2D for this call"),
         ("model.solver.mirrorPeriod = 0", "mirrorPeriod = 0"),
     ],

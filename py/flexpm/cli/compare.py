@@ -83,7 +83,8 @@ def compare(
     kind = kind_of(test)
     if not kind.confined and any(confinements):
         raise InputError(
-            f"confinements = {max(confinements):g} Pa, must be 0 for {test}{kind.confine_hint}"
+            f"confinements = {max(confinements):g} Pa, must be 0 for "
+            f"{test}{kind.confine_hint or '; leave it out'}"
         )
     several = packings.asked(options)
     farthest = ranges(models, options["interaction_range"])
@@ -141,4 +142,4 @@ def _report_failures(cases: Sequence[Case]) -> None:
     if failed:
         names = ", ".join(case.name for case in failed)
         why = next((f"; {case.error}" for case in failed if case.error), "")
-        raise SimulationError(f"runs = {names}, found no strength{why}; the others are complete")
+        raise SimulationError(f"runs = {names}, gave no strength{why}; the other runs are complete")

@@ -38,7 +38,8 @@ _thickness = length_option("--thickness", _THICKNESS, "Thickness out of plane", 
 _edge = click.option(
     "--edge",
     type=Quantity("m", POSITIVE),
-    help="Way between corners of boundaries [m].  [default: a quarter of the mean diameter]",
+    help="Spacing of vertices along smoothed grain boundaries [m].  [default: a quarter of the "
+    "mean diameter]",
 )
 _smallest = click.option(
     "--smallest",
@@ -110,8 +111,8 @@ def image(
     "--short-edge",
     type=Quantity("", Bounds(at_least=0.0, below=0.5)),
     metavar="F",
-    help="Edges of Laguerre cells, in space of all, below this share of the mean diameter are "
-    f"collapsed; 0: none [-].  [default: {SHORT_EDGE:.3f}; in space: {SOLID_SHORT_EDGE:.2f}]",
+    help="Collapse shorter edges, as a share of the mean diameter; 0: none [-]. In 2D, Laguerre "
+    f"cells only.  [default: 2D: {SHORT_EDGE:.3f}; 3D: {SOLID_SHORT_EDGE:.2f}]",
 )
 @cli_options.out_option
 @cli_options.quiet_option
@@ -129,9 +130,7 @@ def tess(
     given: Table = {} if short_edge is None else {"short_edge": short_edge}
     solid = tess_dimension(Words(file, "tess")) == 3
     if solid and thickness is not None:
-        raise InputError(
-            f"thickness = {thickness} m, must not be given for cells in space; leave it out"
-        )
+        raise InputError(f"thickness = {thickness} m, must not be given for 3D cells; leave it out")
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet):
         inputs.load_yade()
@@ -157,7 +156,7 @@ def tess(
     default=10.0,
     metavar="A",
     show_default=True,
-    help="From which on two neighbours are two grains [degree].",
+    help="Smallest misorientation between two grains [degree].",
 )
 @click.option(
     "--unindexed",
@@ -165,7 +164,8 @@ def tess(
     default="fill",
     metavar="fill|hole",
     show_default=True,
-    help="Points that were not indexed go to most of their neighbours, or are holes.",
+    help="Treatment of points that were not indexed: assign to the most frequent neighbour, or "
+    "make holes.",
 )
 @click.option(
     "--phases",
@@ -230,8 +230,8 @@ def _describe(made: Specimen, folder: Path) -> None:
     soft = softness(made)
     if soft > _SOFT:
         terminal.say(
-            f"  contacts of the default material give way {soft:.2g} times as much as grains so "
-            "small: give normal_stiffness and fracture energies for their size"
+            f"  contacts of the default material are {soft:.2g} times as compliant as grains of "
+            "this size: give normal_stiffness and fracture energies for it"
         )
     if names:
         terminal.say(f"  minerals of the material, in this order: {', '.join(names)}")

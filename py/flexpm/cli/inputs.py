@@ -123,8 +123,8 @@ def source(test: str, options: Table) -> SpecimenSource:
     found = _source(packed, file, options)
     if solid not in (None, found.plain.kind):
         raise InputError(
-            f"specimen = {str(file)!r}, is a {found.plain.kind}, must be a {solid} as shape says; "
-            "leave one out"
+            f"specimen = {str(file)!r}, is a {found.plain.kind}, must be a {solid} as in shape; "
+            "leave out specimen or shape"
         )
     return found
 
@@ -154,8 +154,8 @@ def side_pressures(options: Table) -> Table:
     given = options["second_confinement"]
     if second and given is not None:
         raise InputError(
-            f"second_confinement = {given:g} Pa, must be left out beside confinement = "
-            f"{first:g},{second[0]:g} Pa"
+            f"second_confinement = {given:g} Pa, must not be given with confinement = "
+            f"{first:g},{second[0]:g} Pa; leave out one of them"
         )
     return {"confinement": first, "second_confinement": second[0] if second else given}
 
@@ -289,8 +289,8 @@ def refuse_packing() -> None:
     for name in (*SIZE_NAMES, *PACKING, "seeds"):
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
             raise InputError(
-                f"{name} = {context.params.get(name)}, must not be given with specimen, which has "
-                "its own; leave one out"
+                f"{name} = {context.params.get(name)}, must not be given with specimen, whose file "
+                "contains it; leave out one of them"
             )
 
 

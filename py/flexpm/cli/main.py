@@ -170,7 +170,7 @@ def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
     terminal.say(tables.table(rows))
 
 
-@command.command(short_help="Many runs from one file.")
+@command.command(short_help="Run all combinations of parameters in a file.")
 @cli_options.many_runs_options
 @cli_options.study_seeds_option
 def study(file: Path, out: Path | None, quiet: bool, report: bool, **options: Any) -> None:
@@ -235,10 +235,13 @@ def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options
     terminal.say(f"  files  {preset}, {picture}, {folder / 'history.csv'}")
     missed = [name for name, met in found.met.items() if not met]
     if missed:
-        raise SimulationError(f"targets = {', '.join(missed)}, not met; see {picture}")
+        raise SimulationError(
+            f"targets = {', '.join(missed)}, not met; see {picture}, and change the targets or "
+            "free more keys"
+        )
 
 
-@command.command(short_help="The page of results again.")
+@command.command(short_help="Rebuild report.html from the files of a run.")
 @click.argument("folder", type=click.Path(path_type=Path), metavar="DIR")
 def report(folder: Path) -> None:
     """Make report.html in DIR again, the folder of a run, compare, study or calibrate.

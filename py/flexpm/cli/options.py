@@ -112,8 +112,8 @@ seeds_options = combined(
         "--seeds",
         type=Seeds(),
         metavar="N-M,...",
-        help="Test the packings of several seeds, such as 1-5 or 1,3,7-9; a table and a picture "
-        "with mean and standard deviation.",
+        help="Test the packings of several seeds, such as 1-5 or 1,3,7-9. Writes a table and a "
+        "figure with mean and standard deviation.",
     ),
     click.option(
         "--workers",
@@ -144,7 +144,7 @@ grain_options = combined(
         default=SpecimenSpec.porosity,
         metavar="N",
         show_default=True,
-        help="Sets the number of grains [-].",
+        help="Porosity of the packing, which sets the number of grains [-].",
     ),
     seed_option,
 )
@@ -157,7 +157,7 @@ specimen_option = click.option(
     "specimen_file",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="Test a specimen of Specimen.save instead of packing one.",
+    help="Load a specimen written by Specimen.save instead of packing grains.",
 )
 joints_option = combined(
     click.option(
@@ -195,7 +195,7 @@ network_options = combined(
         "--network-seed",
         type=Count(0),
         metavar="N",
-        help="Seed of the network.  [default: that of its file]",
+        help="Seed of the network.  [default: the seed in its file]",
     ),
 )
 #: Lines that cut a specimen.
@@ -230,14 +230,14 @@ confinement_option = click.option(
     default=str(LoadingOptions.confinement),
     metavar="PA[,PA]",
     show_default=True,
-    help=f"{DECLARED['confinement'].help}; with a comma that on the sides of a box across x, and "
-    "the --second-confinement [Pa].",
+    help=f"{DECLARED['confinement'].help}. For a box, P,P sets the confining pressures across x "
+    "and y (as --second-confinement) [Pa].",
 )
 drawn_mesh_option = click.option(
     "--mesh",
     type=Name(*MESHES),
     metavar="fan|refined",
-    help="Draw this mesh in the grains.",
+    help="Mesh of the grains.",
 )
 out_option = click.option(
     "--out",
@@ -261,7 +261,7 @@ study_seeds_option = click.option(
     "--seeds",
     type=Seeds(),
     metavar="N-M,...",
-    help="Values of seed in the place of those in FILE, such as 1-5 or 1,3,7-9.",
+    help="Seeds that replace the seeds in FILE, such as 1-5 or 1,3,7-9.",
 )
 many_runs_options = combined(
     click.argument("file", type=click.Path(path_type=Path), metavar="FILE"),

@@ -21,7 +21,9 @@ def asked(options: Table) -> Sequence[int]:
     """Seeds of the packings that are asked for, none without `--seeds`."""
     seeds: Sequence[int] = options["seeds"] or ()
     if seeds and _is_given("seed"):
-        raise InputError(f"seed = {options['seed']}, must not be given with seeds; leave one out")
+        raise InputError(
+            f"seed = {options['seed']}, must not be given with seeds; leave out one of them"
+        )
     if seeds and options["threads"] != 1:
         raise InputError(
             f"threads = {options['threads']}, must be 1 with seeds; packings run side by side"
@@ -111,4 +113,6 @@ def _report_failures(failed: Mapping[str, tuple[int | None, str]], runs: int) ->
     if len(failed) == runs and {code for code, _ in failed.values()} == {2}:
         raise InputError(why)  # what all packings refuse is wrong input
     names = ", ".join(failed)
-    raise SimulationError(f"runs = {names}, {len(failed)} of {runs} failed, in no mean; {why}")
+    raise SimulationError(
+        f"runs = {names}, {len(failed)} of {runs} failed and are not part of the means; {why}"
+    )

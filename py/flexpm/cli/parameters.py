@@ -44,7 +44,9 @@ class Pressures(Quantity):
             return value
         parts = str(value).split(",")
         if len(parts) > 2:
-            raise InputError(f"{label_of(param)} = {value} Pa, must be one pressure or two: P,P")
+            raise InputError(
+                f"{label_of(param)} = {value} Pa, must be one or two pressures; write P or P,P"
+            )
         return tuple(super(Pressures, self).convert(part.strip(), param, ctx) for part in parts)
 
 
@@ -74,11 +76,11 @@ class Range(click.ParamType):
             return low, high
         parts = str(value).split(",")
         if len(parts) != 2:
-            raise InputError(f"{label_of(param)} = {value} m, must read DMIN,DMAX")
+            raise InputError(f"{label_of(param)} = {value} m, must be two lengths; write DMIN,DMAX")
         length = Quantity("m", POSITIVE)
         low, high = (length.convert(part.strip(), param, ctx) for part in parts)
         if low > high:
-            raise InputError(f"{label_of(param)} = {value} m, DMIN must not exceed DMAX")
+            raise InputError(f"{label_of(param)} = {value} m, DMIN must not exceed DMAX; swap them")
         return low, high
 
 
@@ -96,7 +98,7 @@ class Place(click.ParamType):
             return x, y
         parts = str(value).split(",")
         if len(parts) != 2:
-            raise InputError(f"{label_of(param)} = {value} m, must read X,Y")
+            raise InputError(f"{label_of(param)} = {value} m, must be two coordinates; write X,Y")
         length = Quantity("m", ANY)
         x, y = (length.convert(part.strip(), param, ctx) for part in parts)
         return x, y
@@ -117,7 +119,10 @@ class Count(click.ParamType):
         try:
             number = int(str(value))
         except ValueError:
-            raise InputError(f"{label_of(param)} = {value}, must be a whole number") from None
+            raise InputError(
+                f"{label_of(param)} = {value}, must be a whole number; write it without decimals "
+                "and unit"
+            ) from None
         return require_whole(
             label_of(param), number, Bounds(at_least=self.at_least, at_most=self.at_most)
         )
@@ -141,7 +146,9 @@ class Each(click.ParamType):
         found = tuple(self._kind.convert(part, param, ctx) for part in parts)
         for one in found:
             if found.count(one) > 1:
-                raise InputError(f"{label_of(param)} = {value}, must name {one} once")
+                raise InputError(
+                    f"{label_of(param)} = {value}, must name {one} once; remove the repeated entry"
+                )
         return found
 
 
@@ -164,18 +171,18 @@ class Seeds(click.ParamType):
         for part in str(value).split(","):
             found = self._PART.fullmatch(part.strip())
             if found is None:
-                raise InputError(f"{told} be whole numbers and ranges such as 1-5 or 1,3,7-9")
+                raise InputError(f"{told} be whole numbers and ranges; write e.g. 1-5 or 1,3,7-9")
             first, last = int(found[1]), int(found[2] or found[1])
             if last < first:
-                raise InputError(f"{told} go upwards; {first}-{last} does not")
+                raise InputError(f"{told} have increasing ranges; write {last}-{first}")
             ranges.append(range(first, last + 1))
         count = sum(map(len, ranges))
         if count > self._MOST:
-            raise InputError(f"{told} be at most {self._MOST} packings, not {count}")
+            raise InputError(f"{told} be <= {self._MOST} seeds, not {count}; give a smaller range")
         seeds = tuple(seed for one in ranges for seed in one)
         for number, seed in enumerate(seeds):
             if seed in seeds[:number]:
-                raise InputError(f"{told} name {seed} once")
+                raise InputError(f"{told} name {seed} once; remove the repeated seed")
         return seeds
 
 

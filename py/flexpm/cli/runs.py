@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 _discard_option = click.option(
     "--discard-checkpoint",
     is_flag=True,
-    help="Start again if the folder holds results or a checkpoint of another run, or damaged ones.",
+    help="Start again if the folder has results or a checkpoint of another run, or damaged files.",
 )
 
 
@@ -74,7 +74,7 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
     _simulate(spec, chosen, lambda shown: inputs.resumed(source, folder, shown), folder, options)
 
 
-@click.command(short_help="A run again from its result.json.")
+@click.command(short_help="Repeat a run from its result.json.")
 @click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
 @click.option(
     "--out",
@@ -123,7 +123,7 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
         _tell_differences(file, before, folder)
 
 
-@click.command(short_help="Elastic constants by one static solve.")
+@click.command(short_help="Compute the elastic constants with one static solution.")
 @cli_options.model_options
 @solve_shape_options
 @cli_options.rectangle_options
@@ -155,7 +155,7 @@ def _repeat(
     output = Output(options["report"], options["frames"], options["film"])
     if options["discard_checkpoint"]:
         raise InputError(
-            "discard_checkpoint: must be left out for a script's own test; choose another folder"
+            "discard_checkpoint: must be left out for a custom test; choose another folder"
         )
     inputs.load_yade()
     from ..laboratory.own_tests import repeat
@@ -237,8 +237,8 @@ def _simulate(
         terminal.say(f"  an earlier run there {again} at step {result.resumed_at}")
     if result.failed:
         raise SimulationError(
-            f"status = {result.status} after {result.steps} steps, {result.without_peak}; "
-            f"what was reached is in {folder}"
+            f"status = {result.status} after {result.steps} steps, {result.without_peak}; the "
+            f"results up to there are in {folder}"
         )
 
 

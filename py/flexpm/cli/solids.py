@@ -46,9 +46,9 @@ def _shape_options(shapes: Sequence[str], of: str) -> cli_options.Decorator:
             "--shape",
             type=Name(*shapes),
             metavar="|".join(shapes),
-            help=f"Take a solid{of}. Sizes of a solid that are not given [m]: {sizes}.  [default: "
-            "that of the test in the plane; with --depth a solid-disc for a disc, half of one for "
-            "half a disc, a box for a beam; a cylinder for tests of solids alone]",
+            help=f"Shape of a 3D specimen{of}. Default sizes [m]: {sizes}.  [default: the 2D shape "
+            "of the test; with --depth solid-disc for a disc, solid-half-disc for half a disc, box "
+            "for a beam; cylinder for tests that exist in 3D only]",
         ),
         length_option("--depth", _BOX["depth"], "Depth of a box, a disc or half of one, along y"),
     )
@@ -64,7 +64,7 @@ bench_options = combined(
         "--shape",
         type=Name("box"),
         metavar="box",
-        help="Time the models of a solid box, not those of a rectangle.",
+        help="Time the models on a 3D box instead of a rectangle.",
     ),
     length_option("--depth", _BOX["depth"], "Depth of a box, along y"),
 )

@@ -98,8 +98,8 @@ def require_within(lines: Lines, low: Point, high: Point) -> None:
             inside += sum(_meets(a, b, low, high) for a, b in itertools.pairwise(line))
     if inside > MOST_SEGMENTS:
         raise InputError(
-            f"joints: segments in the specimen = {inside}, must be <= {MOST_SEGMENTS}; leave some "
-            "out, or make longer ones"
+            f"joints: segments in the specimen = {inside}, must be <= {MOST_SEGMENTS}; leave out "
+            "or merge segments"
         )
 
 
@@ -119,7 +119,7 @@ def require_any(cuts: Mapping[str, Cut], lines: Lines, low: Point, high: Point) 
     first, one = next(iter(cuts.items()))
     raise InputError(
         f"joints: lines that cut a cell = 0 of {sum(one.lines for one in cuts.values())}, must be "
-        f">= 1 (joint {first} {one.reason}); they lie from {_place((min(x), min(y)))} to "
+        f">= 1 (joint {first} {one.reason}); the lines extend from {_place((min(x), min(y)))} to "
         f"{_place((max(x), max(y)))}, the specimen from {_place(low)} to {_place(high)}: move or "
         "lengthen them"
     )

@@ -77,7 +77,7 @@ def ring_of(name: str, given: object, grain: float) -> FloatArray:
     except (InputError, ValueError, TypeError):
         raise InputError(
             f"excavation {quoted(name)} = {quoted(given)}, must be a polygon, rows x, y, or a "
-            "circle, ((x, y), radius), under a name without spaces"
+            "circle, ((x, y), radius), under a name without spaces; correct it"
         ) from None
     corners = np.array(line[:-1] if line[0] == line[-1] else line)
     if len(corners) < 3:

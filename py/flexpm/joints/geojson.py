@@ -100,12 +100,12 @@ def _content(label: str, path: Path) -> Table:
     except (ValueError, RecursionError) as error:
         content, reason = None, f" ({str(error).splitlines()[0]})"
     if not isinstance(content, dict):
-        raise InputError(f"{label}, is no GeoJSON{reason}; give a map of lines")
+        raise InputError(f"{label}, is not GeoJSON{reason}; give a map of lines")
     return content
 
 
 def _refuse(name: str) -> NoReturn:
-    raise ValueError(f"{name} is no number")
+    raise ValueError(f"{name} is not a finite number")
 
 
 def _system(label: str, crs: object) -> list[str]:
@@ -131,7 +131,9 @@ def _geometries(label: str, content: Table) -> Iterator[tuple[Table, Table]]:
     while waiting:
         one, properties, depth = waiting.pop()
         if not isinstance(one, dict) or depth > _DEEPEST:
-            raise InputError(f"{label}: feature = {quoted(one)}, must be one of GeoJSON; repair it")
+            raise InputError(
+                f"{label}: feature = {quoted(one)}, must be a GeoJSON feature; repair it"
+            )
         within = {"FeatureCollection": "features", "GeometryCollection": "geometries"}
         key = within.get(str(one.get("type")))
         if key is not None:

@@ -83,7 +83,9 @@ def law_of(where: str, given: object, laws: Mapping[str, type[Kind]]) -> Kind:
     table = require_table(where, given)
     name = table.pop("law", None)
     if not isinstance(name, str) or name not in laws:
-        raise InputError(f"{where} law = {quoted(name)}, must be one of {', '.join(laws)}")
+        raise InputError(
+            f"{where} law = {quoted(name)}, must be one of {', '.join(laws)}; choose one of them"
+        )
     return laws[name].of(where, table)
 
 

@@ -43,8 +43,8 @@ def read(path: Path) -> Lines:
         where = f"{name}, line {number}, joint {quoted(label)}"
         if len(row) > len(COLUMNS):
             raise InputError(
-                f"{where}: cells = {len(row)}, must be {len(COLUMNS)}, one for each column; "
-                "take out what is too much"
+                f"{where}: cells = {len(row)}, must be {len(COLUMNS)}, one for each column; remove "
+                "the others"
             )
         check_name(label, f"{where}: name")
         start, end = _ends(where, row)
@@ -90,7 +90,7 @@ def _rows(name: str, path: Path) -> Iterator[tuple[int, list[str]]]:
     except InputError:
         raise
     except (ValueError, csv.Error) as error:  # also of a name that can be none
-        raise InputError(f"{name}, is no CSV file: {error}") from None
+        raise InputError(f"{name}, is not a CSV file: {error}; correct the file") from None
 
 
 def _filled(row: list[str]) -> list[str]:
@@ -109,7 +109,10 @@ def checked(joints: object, *, excavations: bool = False) -> Lines:
         InputError: for a value that is not a line, and for a name that no joint may have.
     """
     if not isinstance(joints, Mapping) or not joints:
-        raise InputError(f"joints = {quoted(joints)}, must be lines by the name of their joint")
+        raise InputError(
+            f"joints = {quoted(joints)}, must be lines by the name of their joint; give "
+            f"{{name: [(x, y), ...]}}"
+        )
     found: Lines = {}
     for name, given in joints.items():
         is_excavation = excavations and isinstance(name, str) and name.startswith(EXCAVATION)
@@ -119,8 +122,8 @@ def checked(joints: object, *, excavations: bool = False) -> Lines:
             lines = [lines]
         if not isinstance(lines, list) or not lines or not all(map(_is_line, lines)):
             raise InputError(
-                f"joint {name} = {quoted(given)}, must be a line of two points x, y or more, or a "
-                "list of lines"
+                f"joint {name} = {quoted(given)}, must be a line of two or more points x, y, or a "
+                "list of lines; give [(x, y), (x, y)]"
             )
         found[name] = [_without_repeats(name, line) for line in lines]
     return found
@@ -131,7 +134,7 @@ def check_name(name: object, where: str) -> None:
     if not isinstance(name, str) or not name.isprintable() or not name or set(name) & _NOT_IN_NAMES:
         raise InputError(
             f"{where} = {quoted(name)}, must be a name without spaces, dots, commas, quotes, "
-            "equals signs and what cannot be printed"
+            "equals signs and unprintable characters; rename it"
         )
     if name.startswith(EXCAVATION):
         raise InputError(
@@ -146,7 +149,7 @@ def _without_repeats(name: str, line: Sequence[Sequence[float]]) -> Line:
     found = points[:1] + [b for a, b in itertools.pairwise(points) if a != b]
     if len(found) < 2:
         raise InputError(
-            f"joint {name}: point = {found[0]} m, must not be there twice in a line without "
+            f"joint {name}: point = {found[0]} m, is the start and end of a line without "
             "length; remove the line"
         )
     return found

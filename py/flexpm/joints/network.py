@@ -104,7 +104,9 @@ class Network:
         chosen = table.get("seed", 1) if seed is None else seed
         sets = require_table("network set", table.get("set", {}))
         if not sets:
-            raise InputError("network set = {}, must have a table [set.NAME] for each joint")
+            raise InputError(
+                "network set = {}, must have a table [set.NAME] for each joint; add one"
+            )
         found = {}
         for name, one in sets.items():
             check_name(name, "network set")
@@ -139,8 +141,8 @@ class Network:
             one = self.sets[name]
             raise InputError(
                 f"network set {name}: traces expected = {expected[name]:.4g} in a window larger by "
-                f"{one.length.longest:.4g} m, must be <= {MOST_TRACES} in all sets; lower the "
-                "intensity, or take longer traces or a lower upper cut-off"
+                f"{one.length.longest:.4g} m, must be <= {MOST_TRACES} in all sets; use a lower "
+                "intensity, longer traces or a lower upper cut-off"
             )
         return {name: one.draw(window, self._generator(name)) for name, one in self.sets.items()}
 
@@ -157,8 +159,8 @@ class Network:
                 found[name] = [[(x, y) for x, y in line] for line in clipped]
         if not found:
             raise InputError(
-                f"network: traces in the specimen = 0 (seed {self.seed}), must be >= 1; raise the "
-                "intensity or take another seed"
+                f"network: traces in the specimen = 0 (seed {self.seed}), must be >= 1; use a "
+                "higher intensity or another seed"
             )
         return found
 

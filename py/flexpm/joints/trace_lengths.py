@@ -167,8 +167,8 @@ class Power(Lengths):
         """Refuse an exponent without a mean, and cut-offs that are reversed."""
         if self.exponent <= 2.0:
             return (
-                f"exponent = {self.exponent:g}, must be > 2: the law has no mean but what its "
-                "upper cut-off makes; take a steeper one"
+                f"exponent = {self.exponent:g}, must be > 2: otherwise the law has a mean only by "
+                "its upper cut-off; give a larger exponent"
             )
         return _reversed(self.smallest, self.largest)
 

@@ -47,8 +47,8 @@ def on_rollers(frame: Frame) -> Layout:
     span, middle = frame.number("span"), frame.middle
     if not span > frame.grain:  # of grains that were given
         raise InputError(
-            f"run: span = {span:g} m, must be > {frame.grain:g} m, one mean grain: both supports "
-            "would lie on the same grains; take a larger span or smaller grains"
+            f"run: span = {span:g} m, must be > {frame.grain:g} m, the mean grain diameter: both "
+            "supports would touch the same grains; use a larger span or smaller grains"
         )
     ligament = frame.height - frame.notch_depth
     rollers = {

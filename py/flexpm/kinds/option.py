@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from ..dimensions import refused
-from ..errors import InputError
 from ..require import ANY, POSITIVE, Bounds, require_number, require_one_of
 from .model_names import BLOCK_MODELS
 
@@ -91,12 +90,10 @@ class Asked:
             InputError: for one out of range.
         """
         value = self.values.get(name)
-        try:
-            if value is None:
-                return require_number(f"run: default {name}", usual, bounds, unit, f"{usual:g}")
-            return require_number(f"run: {name}", value, bounds, unit)
-        except InputError as error:
-            raise InputError(f"{error}: {why}" if why else str(error)) from None
+        if value is None:
+            label, shown = f"run: default {name}", f"{usual:g}"
+            return require_number(label, usual, bounds, unit, shown, why)
+        return require_number(f"run: {name}", value, bounds, unit, why=why)
 
     @property
     def grain(self) -> float:
@@ -150,7 +147,7 @@ def end_friction_of(asked: Asked) -> Mapping[str, Value]:
         return {}
     friction = asked.number(name, 0.0, END_FRICTION.bounds, "")
     if friction > 0.0 and asked.sizes.keys() == {"width", "height"}:
-        raise refused(f"run: {name} = {friction:g}, must be left out for a rectangle", name)
+        raise refused(f"run: {name} = {friction:g}, must not be given for a rectangle", name)
     return {name: friction or None}
 
 

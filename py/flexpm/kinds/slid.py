@@ -12,7 +12,7 @@ WAY = Option(
     "max_displacement",
     "Displacement at which the test ends",
     "m",
-    default="8 times that of the reference strength",
+    default="8 times the displacement at the reference strength",
     open="by the reference strength",
 )
 #: At 0.16 a joint that begins to slide has carried 3 % too much; brittle ones are not measured.

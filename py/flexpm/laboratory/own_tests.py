@@ -86,6 +86,6 @@ def _rig(built: Model, made: Table, leaves: Leaves) -> TestRig:
     if kind == "rig":
         return rig_of(built, tension=given["pull"], **leaves)
     raise InputError(
-        f"rerun: rig = {quoted(kind)}, must be PartRig, SolidPartRig or rig; take the version of "
-        "flexpm that has made the test"
+        f"rerun: rig = {quoted(kind)}, must be PartRig, SolidPartRig or rig; use the version of "
+        "flexpm that wrote the result"
     )

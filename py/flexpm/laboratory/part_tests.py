@@ -69,8 +69,8 @@ def _notched(
     cut = notched(specimen, [(x, front, front < edge) for (x, edge), (_, front) in lines])
     if min(cut.depths()) == 0.0:
         raise InputError(
-            f"run: notch = {spec.options['notch']:g} m, ends within the first grains, must pass "
-            "half of one; take a longer notch or smaller grains"
+            f"run: notch = {spec.options['notch']:g} m, ends within the first grains, must be "
+            "longer than half a grain; use a longer notch or smaller grains"
         )
     _require_ligament(spec, cut, material)
     return cut
@@ -80,8 +80,8 @@ def _require_ligament(spec: RunSpec, cut: AnySpecimen, material: Material) -> No
     frame = _frame(spec, cut, material)
     if not spec.kind.ligament(frame) > _TOUCHES * frame.height:
         raise InputError(
-            f"run: notch = {frame.number('notch'):g} m, goes on to the end of the last grain "
-            "(D35), must leave a ligament; take a shorter notch or smaller grains"
+            f"run: notch = {frame.number('notch'):g} m, extends to the end of the last grain "
+            "(D35), must leave a ligament; use a shorter notch or smaller grains"
         )
 
 
@@ -197,13 +197,13 @@ def _require_notch(spec: RunSpec, specimen: Specimen, material: Material, cuts: 
     aside = float(np.max(np.abs(x - 0.5 * (left + right)), initial=0.0))
     above = float(np.min(y, initial=top)) - bottom
     if cuts:
-        what = f"comes beside the notch of {spec.notch:g} m that the run cuts"
+        what = f"is given in addition to the notch of {spec.notch:g} m that the run cuts"
     elif strength > 0.0:
         what = f"strength = {strength:g} Pa"
     elif above > _TOUCHES * (top - bottom):
         what = f"begins {above:.3g} m above the bottom"
     elif aside > specimen.mean_diameter:
-        what = f"is {aside:.3g} m beside the middle"
+        what = f"is {aside:.3g} m away from the middle"
     else:
         return
     raise InputError(

@@ -54,8 +54,8 @@ class Interface:
                 raise InputError(f"{where} factor.{key}, must not be given; give {key} itself")
             if key in self.values:
                 raise InputError(
-                    f"{where} {key} = {self.values[key]!r}, must not be given beside "
-                    f"factor.{key} = {self.factors[key]!r}; leave out one of them"
+                    f"{where} {key} = {self.values[key]!r}, must not be given with factor.{key} = "
+                    f"{self.factors[key]!r}; leave out one of them"
                 )
         values = {key: checked_value(key, value, where + " ") for key, value in self.values.items()}
         factors = {
@@ -88,7 +88,10 @@ class Interface:
             and len(pair) == 2
             and all(isinstance(one, str) for one in pair)
         ):
-            raise InputError(f"{where} pair = {quoted(pair)}, must be the names of two minerals")
+            raise InputError(
+                f"{where} pair = {quoted(pair)}, must be the names of two minerals; give a list of "
+                "both"
+            )
         factors = require_table(f"{where} factor", values.pop("factor", {}))
         return cls((pair[0], pair[1]), values, factors)
 
@@ -142,7 +145,10 @@ def checked(interfaces: object, minerals: Sequence[str]) -> tuple[Interface, ...
         InputError: for a mineral that the rock does not have, or a pair that occurs twice.
     """
     if not isinstance(interfaces, list | tuple):
-        raise InputError(f"material interface = {quoted(interfaces)}, must be tables [[interface]]")
+        raise InputError(
+            f"material interface = {quoted(interfaces)}, must be tables [[interface]]; write "
+            "double brackets"
+        )
     made = tuple(
         table if isinstance(table, Interface) else Interface.from_dict(table, number)
         for number, table in enumerate(interfaces, 1)
@@ -150,11 +156,14 @@ def checked(interfaces: object, minerals: Sequence[str]) -> tuple[Interface, ...
     pairs = [one.pair for one in made]
     for one in made:
         if not minerals:
-            raise InputError(f"interface {one.name}: needs a material with [[mineral]] tables")
+            raise InputError(
+                f"interface {one.name}: the material has no minerals; add [[mineral]] tables or "
+                "leave the interface out"
+            )
         for name in one.pair:
             require_known(f"interface {one.name}: mineral", name, list(minerals))
         if pairs.count(one.pair) > 1:
-            raise InputError(f"interface = {one.name!r}, is there twice; give all keys in one")
+            raise InputError(f"interface = {one.name!r}, is given twice; put all keys in one table")
     return made
 
 
@@ -214,14 +223,16 @@ def _split(label: str, names: str, minerals: Sequence[str]) -> tuple[str, str]:
         both = " or ".join(f"{first} with {second}" for first, second in found)
         raise InputError(
             f"set {label}: {names!r} is {both}; give the pair as [[interface]] of the material's "
-            "file, or take names of minerals without /"
+            "file, or use names of minerals without /"
         )
     if found:
         return found[0]
     if not minerals:
-        raise InputError(f"set {label}, needs a material with [[mineral]] tables")
+        raise InputError(
+            f"set {label}: the material has no minerals; use a material with [[mineral]] tables"
+        )
     raise InputError(
-        f"set {label}: {names!r}, must be two of the minerals {', '.join(minerals)}, with / between"
+        f"set {label}: {names!r}, must be two of the minerals {', '.join(minerals)}; write A/B"
     )
 
 

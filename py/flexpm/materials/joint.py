@@ -42,7 +42,7 @@ class Joint:
         if not isinstance(self.name, str) or not self.name or set(self.name) & set(". =,\"'"):
             raise InputError(
                 f"joint = {quoted(self.name)}, must be a name without spaces, dots, commas, quotes "
-                "and equals signs"
+                "and equals signs; rename it"
             )
         for key, value in self._values().items():
             object.__setattr__(self, key, self._checked(key, value))
@@ -127,7 +127,7 @@ class Joint:
         if self.dilation_angle > largest:
             raise InputError(
                 f"{label} dilation_angle = {self.dilation_angle!r} degrees, must not exceed the "
-                f"friction angle of {largest:.4g} degrees"
+                f"friction angle, {largest:.4g} degrees"
             )
         if self.dilation_slip is None:
             raise InputError(
@@ -139,7 +139,7 @@ class Joint:
             if getattr(self, key) > 0.0:
                 raise InputError(
                     f"material [joint.{self.name}] {key} = {getattr(self, key)!r} Pa, must be 0 "
-                    "for an open joint; leave out one of them"
+                    "for an open joint; leave out this key or open"
                 )
 
 
@@ -151,7 +151,9 @@ def checked(joints: object) -> tuple[Joint, ...]:
         names = [joint.name for joint in joints]
         if len({*names}) == len(names):
             return tuple(joints)
-    raise InputError(f"material joint = {quoted(joints)}, must be tables [joint.NAME]")
+    raise InputError(
+        f"material joint = {quoted(joints)}, must be tables [joint.NAME]; give each joint a table"
+    )
 
 
 def with_values(joints: tuple[Joint, ...], values: Mapping[str, object]) -> tuple[Joint, ...]:
@@ -190,13 +192,15 @@ def parsed(label: str, text: str) -> float | bool:
     key = split(label)[1]
     if key == "open":
         if text not in ("true", "false"):
-            raise InputError(f"set {label} = {text!r}, must be true or false")
+            raise InputError(f"set {label} = {text!r}, must be true or false; choose one")
         return text == "true"
     try:
         return float(text)
     except ValueError:
         unit = JOINT_UNITS[key] or ""
-        raise InputError(f"set {label} = {text!r} {unit}".rstrip() + ", must be a number") from None
+        raise InputError(
+            f"set {label} = {text!r} {unit}".rstrip() + ", must be a number; write it without unit"
+        ) from None
 
 
 def _table(joint: Joint) -> Table:

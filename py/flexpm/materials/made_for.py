@@ -85,4 +85,4 @@ def checked(made_for: object) -> MadeFor | None:
         return made_for
     if isinstance(made_for, Mapping):
         return MadeFor.from_dict(made_for)
-    raise InputError(f"{_WHERE} = {made_for!r}, must be a table")
+    raise InputError(f"{_WHERE} = {made_for!r}, must be a table; give dimension and model")

@@ -120,7 +120,9 @@ class Material(Shown):
             if value is not None or key not in ENERGY_KEYS:
                 object.__setattr__(self, key, checked(key, value))
         if not self.elastic:
-            raise InputError("material elastic = {}, needs a set such as [elastic.flexible]")
+            raise InputError(
+                "material elastic = {}, has no set; add a table such as [elastic.flexible]"
+            )
         sets = {name: _checked_set(name, chosen) for name, chosen in self.elastic.items()}
         object.__setattr__(self, "elastic", sets)
         if self.softening == "bilinear":
@@ -422,7 +424,10 @@ def _assigned(assignments: object) -> Table:
     if isinstance(assignments, str):
         assignments = [assignments]
     if not isinstance(assignments, Iterable):
-        raise InputError(f"set = {quoted(assignments)}, must be texts KEY=VALUE or a mapping")
+        raise InputError(
+            f"set = {quoted(assignments)}, must be texts KEY=VALUE or a mapping; write e.g. "
+            "young=25.8e9"
+        )
     return dict(map(_parse_assignment, assignments))
 
 
@@ -441,4 +446,6 @@ def _parse_assignment(text: object) -> tuple[str, float | str | bool]:
     try:
         return key, float(value)
     except ValueError:
-        raise InputError(f"set {key} = {value!r} {UNITS[plain]}, must be a number") from None
+        raise InputError(
+            f"set {key} = {value!r} {UNITS[plain]}, must be a number; write it without unit"
+        ) from None

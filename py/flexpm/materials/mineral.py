@@ -72,9 +72,14 @@ class Mineral:
 def checked(minerals: object) -> tuple[Mineral, ...]:
     """Minerals from tables; their names differ and their fractions sum up to 1."""
     if not isinstance(minerals, list | tuple):
-        raise InputError(f"material mineral = {quoted(minerals)}, must be tables [[mineral]]")
+        raise InputError(
+            f"material mineral = {quoted(minerals)}, must be tables [[mineral]]; write double "
+            "brackets"
+        )
     if len(minerals) > MOST:
-        raise InputError(f"material minerals = {len(minerals)}, must be <= {MOST}")
+        raise InputError(
+            f"material minerals = {len(minerals)}, must be <= {MOST}; merge similar minerals"
+        )
     made = tuple(
         table if isinstance(table, Mineral) else Mineral.from_dict(table, number)
         for number, table in enumerate(minerals, 1)
@@ -82,7 +87,7 @@ def checked(minerals: object) -> tuple[Mineral, ...]:
     names = [mineral.name for mineral in made]
     for name in names:
         if names.count(name) > 1:
-            raise InputError(f"mineral = {name!r}, is there twice; give each a name of its own")
+            raise InputError(f"mineral = {name!r}, is given twice; give each mineral another name")
         if name.startswith(_RESERVED):
             raise InputError(
                 f"mineral = {quoted(name)}, must not begin with {' or '.join(_RESERVED)}, as "
@@ -90,7 +95,7 @@ def checked(minerals: object) -> tuple[Mineral, ...]:
             )
     total = math.fsum(mineral.fraction for mineral in made)
     if made and abs(total - 1.0) > _SUM_TOLERANCE:
-        raise InputError(f"mineral fractions = {total:.6g} in all, must sum up to 1")
+        raise InputError(f"mineral fractions = {total:.6g} in all, must sum to 1; correct them")
     return made
 
 
@@ -111,7 +116,10 @@ def with_values(
     for name, value in values.items():
         mineral, _, key = name.rpartition(".")
         if not found:
-            raise InputError(f"set {name} = {value!r}, needs a material with [[mineral]] tables")
+            raise InputError(
+                f"set {name} = {value!r}, the material has no minerals; use a material with "
+                "[[mineral]] tables"
+            )
         require_known("set mineral", mineral, list(found))
         require_known(f"set {mineral} key", key, [*_KEYS, *ELASTIC_KEYS])
         changes: Table = dict(found[mineral].changes)

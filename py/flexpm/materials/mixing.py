@@ -70,8 +70,8 @@ def description(rock: Material, model: str = "flexible") -> Table:
         return values
     if model not in MODELS:
         raise InputError(
-            f"material = {rock.name!r} has minerals, model {model} takes one kind of grain; "
-            f"use one of {', '.join(MODELS)}"
+            f"material = {rock.name!r} has minerals, model {model} has one type of grain; use one "
+            f"of the models {', '.join(MODELS)}"
         )
     pairs = pair_materials(rock, model)
     grains = mineral_materials(rock)
@@ -211,12 +211,14 @@ def _changed(rock: Material, mineral: Mineral) -> Material:
     elastic = dict(rock.elastic)
     sets = changes.pop("elastic", {})
     if not isinstance(sets, Mapping):
-        raise InputError(f"mineral {mineral.name} elastic = {sets!r}, must be tables")
+        raise InputError(
+            f"mineral {mineral.name} elastic = {sets!r}, must be tables; give one for each model"
+        )
     for name, values in sets.items():
         where = f"mineral {mineral.name} [elastic.{name}]"
         require_known(f"mineral {mineral.name} elastic set", name, list(elastic))
         if not isinstance(values, Mapping):
-            raise InputError(f"{where} = {values!r}, must be a table")
+            raise InputError(f"{where} = {values!r}, must be a table; give keys with values")
         for key in values:
             require_known(f"{where} key", key, list(ELASTIC_KEYS))
         elastic[name] = dataclasses.replace(elastic[name], **values)

@@ -330,7 +330,7 @@ def build(
         _refuse_plane("build", points=points, mesh=mesh)
         if dynamic and model in SPHERE_MODELS:
             raise InputError(
-                f"build: dynamic = True, must be False for {model} of a solid; take flexible or "
+                f"build: dynamic = True, must be False for {model} grains in 3D; use flexible or "
                 "rigid grains"
             )
     if model in SPHERE_MODELS:
@@ -423,7 +423,7 @@ def _in_scene(solver: wrapper.GrainSolver, mean_diameter: float) -> list[wrapper
 
 def _refuse_second() -> None:
     if any(isinstance(engine, wrapper.GrainSolver) for engine in yade.O.engines):
-        raise InputError("build: the scene has a GrainSolver, there can be one; call O.reset()")
+        raise InputError("build: the scene already has a GrainSolver; call O.reset()")
 
 
 def _refuse_plane(call: str, **given: float | str) -> None:
@@ -432,7 +432,7 @@ def _refuse_plane(call: str, **given: float | str) -> None:
     for name, value in given.items():
         if value != usual[name]:
             shown = ", ".join(map(str, given.values()))
-            asked = f"{call}: {', '.join(given)} = {shown}, must be left out for a solid"
+            asked = f"{call}: {', '.join(given)} = {shown}, must not be given for a 3D specimen"
             raise refused(asked, name)
 
 

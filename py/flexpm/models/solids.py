@@ -98,7 +98,10 @@ def elastic_of_solid(specimen: SolidSpecimen, chosen: Material, model: str) -> d
     """
     require_model(f"elastic: model for a {specimen.kind}", model, SOLID_MODELS, solid=True)
     if "height" not in specimen.dimensions:
-        raise InputError(f"elastic: specimen = {specimen.kind}, must be a box or a cylinder")
+        raise InputError(
+            f"elastic: specimen = {specimen.kind}, must be a box or a cylinder; use one of these "
+            "shapes"
+        )
     if model == "rigid":
         return _elastic_of_rigid(specimen, chosen)
     minerals = _minerals(specimen, chosen, model)

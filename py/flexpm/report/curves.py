@@ -217,7 +217,7 @@ def _draw_peak(axes: Axes, result: Result) -> None:
 def _caption(result: Result) -> str:
     confined = pressures_text(result)
     name = label_of(result.material.get("name", ""))
-    where = f", confinement {confined}" if confined else ""
+    where = f", confining pressure {confined}" if confined else ""
     caption = f"{result.test}, {result.model} model, {name}{where}"
     if result.status != "ok":
         caption += f" ({result.status.replace('_', ' ')})"

@@ -100,7 +100,7 @@ def _draw_growth(axes: Axes, result: Result, events: Sequence[AnyEvent]) -> None
     places = places_of(result, np.sort([one.strain for one in events]))
     counts = axes.twinx()
     counts.step(places, np.arange(1, len(places) + 1), where="post", color=COLOURS[TENSILE])
-    counts.set_ylabel("events so far [-]", color=COLOURS[TENSILE])
+    counts.set_ylabel("number of events [-]", color=COLOURS[TENSILE])
     counts.set_ylim(bottom=0.0)
     counts.spines["right"].set_visible(True)
     axes.set_zorder(counts.get_zorder() + 1)  # the curve lies over the counts
@@ -163,7 +163,7 @@ def _note(result: Result) -> str:
     text = (
         f"{result.events} events are in events.csv. Points that crack within one mean grain and "
         "the time that a fracture needs to cross it are one event; log10 E [J] = 1.5 M + 4.8, E "
-        "what damage took."
+        "the damage energy."
     )
     if result.b_value is None or result.b_value_error is None:
         return f"{text} No b value: {_without_line(result)}."

@@ -162,13 +162,13 @@ def _drawn(name: str, state: object) -> tuple[Snapshot, Fragments]:
     """Return the plotted state (3D: its section) and the fragments of the entire state."""
     if not isinstance(state, AnySnapshot):
         raise InputError(
-            f"plot.{name}: snapshot = {quoted(state)}, must be a state, `built.snapshot()`"
+            f"plot.{name}: snapshot = {quoted(state)}, must be a state; pass built.snapshot()"
         )
     drawn = state.drawn
     if not can_be_drawn(drawn.positions):
         raise InputError(
-            f"plot.{name}: places of the state = none that can be drawn, must be finite numbers; "
-            "the run has diverged"
+            f"plot.{name}: the positions of the state are not finite; the run has diverged, plot "
+            "an earlier state"
         )
     return drawn, state.fragments
 

@@ -124,7 +124,9 @@ def read_cracks(path: Path) -> list[AnyCrack]:
         ]
         return _at_heights(found, heights)
     except (ValueError, KeyError) as error:
-        raise InputError(f"cracks = {str(path)!r}, holds no cracks: {error}") from None
+        raise InputError(
+            f"cracks = {str(path)!r}, is not a table of cracks: {error}; give cracks.csv of a run"
+        ) from None
 
 
 def count_by_pair(cracks: Sequence[AnyCrack]) -> dict[str, dict[str, int]] | None:

@@ -24,7 +24,7 @@ _USUAL: dict[str, tuple[float, float, str]] = {
     "normal_stiffness": (1e8, 1e18, "Pa/m"),
     "tensile_strength": (1e3, 1e11, "Pa; 8.5 MPa is 8.5e6"),
     "cohesion": (1e3, 1e11, "Pa; 30 MPa is 30e6"),
-    "friction": (0.0, 5.0, "1, the tangent of an angle; that of 30 degrees is 0.577"),
+    "friction": (0.0, 5.0, "1, the tangent of an angle; tan(30 degrees) is 0.577"),
     "density": (100.0, 3e4, "kg/m3"),
     "confinement": (1e3, 1e11, "Pa; 4 MPa is 4e6"),
     "second_confinement": (1e3, 1e11, "Pa; 4 MPa is 4e6"),
@@ -174,8 +174,9 @@ def of_gravity(gravity: float, damping: float) -> list[str]:
     if not gravity or not damping > LARGEST_DAMPING:
         return []
     return [
-        f"damping = {damping:g}, is above {LARGEST_DAMPING:g} with gravity: what falls or slides "
-        f"gains {1.0 - damping:.3g} of its acceleration, and slopes hold; take 0 for motion"
+        f"damping = {damping:g}, is above {LARGEST_DAMPING:g} with gravity: falling or sliding "
+        f"bodies have only {1.0 - damping:.3g} of their acceleration, and slopes are too stable; "
+        "use 0 for motion"
     ]
 
 
@@ -189,7 +190,8 @@ def of_overlap(part: float) -> list[str]:
         return []
     return [
         f"overlap = {100.0 * part:.3g} % of a diameter, of grains that were never neighbours and "
-        f"do not meet, is above {100.0 * LARGEST_OVERLAP:g} %; what is past the peak does not count"
+        f"do not meet, is above {100.0 * LARGEST_OVERLAP:g} %; results after the peak are not "
+        "valid, lower the rate or stop at the peak (--stop-ratio)"
     ]
 
 
@@ -246,7 +248,10 @@ def of_result(
     lines = []
     now = "" if rate is None else f" (--rate, now {rate:g})"
     if status == "not_quasistatic":
-        lines.append(f"status = not_quasistatic, too fast to tell a strength; lower the rate{now}")
+        lines.append(
+            "status = not_quasistatic, the loading was too fast for a strength; lower the "
+            f"rate{now}"
+        )
     if energy_error is not None and energy_error > LARGEST_ENERGY_ERROR:
         limit = f"{100.0 * LARGEST_ENERGY_ERROR:g} %"
         lines.append(
@@ -268,7 +273,7 @@ def of_rise(reached: str) -> str:
     """
     return (
         f"status = no_peak, the load still rose at {reached}, where a loading ends by default; "
-        "give Loading(max_strain=...) to go on"
+        "give a larger Loading(max_strain=...)"
     )
 
 
@@ -285,7 +290,7 @@ def of_few_rows(rows: int, steps: int, rate: float | None) -> list[str]:
     now = "" if rate is None else f" (--rate, now {rate:g})"
     return [
         f"rows while loaded = {rows} in {steps} steps, must be >= {FEWEST_ROWS} to judge the "
-        f"loading rate; the stress may be that of a wave, lower the rate{now}"
+        f"loading rate; the stress may be caused by a wave; lower the rate{now}"
     ]
 
 
@@ -352,7 +357,8 @@ def of_regained(first: float, largest: float) -> str:
     """
     return (
         f"largest stress = {1e-6 * largest:.4g} MPa, is above a first peak of {1e-6 * first:.4g} "
-        "MPa that was left by 10 %: broken grains that lock bear it; --stop-ratio 0.9 ends there"
+        "MPa that was left by 10 %: interlocked broken grains carry it; --stop-ratio 0.9 ends at "
+        "the first peak"
     )
 
 
@@ -365,8 +371,9 @@ def of_growth(growth: float | None) -> list[str]:
     if growth is None or growth <= LARGEST_GROWTH:
         return []
     return [
-        f"load at the peak = {100.0 * growth:.3g} % above that a wave's crossing before, more than "
-        f"{100.0 * LARGEST_GROWTH:g} %; the ends may bear more than the specimen, lower the rate"
+        f"load at the peak = {100.0 * growth:.3g} % above the load one wave transit earlier, more "
+        f"than {100.0 * LARGEST_GROWTH:g} %; the ends may carry more than the specimen; lower the "
+        "rate"
     ]
 
 
@@ -379,8 +386,8 @@ def of_grains(across: float | None) -> list[str]:
     if across is None or across >= FEWEST_GRAINS_ACROSS:
         return []
     return [
-        f"grains_across = {across:.2g}, is below {FEWEST_GRAINS_ACROSS:g}: a strength rests on few "
-        "contacts and scatters; take smaller grains or a larger specimen, and several seeds"
+        f"grains_across = {across:.2g}, is below {FEWEST_GRAINS_ACROSS:g}: the strength depends on "
+        "few contacts and scatters; use smaller grains or a larger specimen, and several seeds"
     ]
 
 
@@ -395,8 +402,8 @@ def of_poissons_ratio(ratio: float | None, elastic: float | None) -> list[str]:
         return []
     return [
         f"poissons_ratio = {ratio:.3g}, differs by {100.0 * abs(ratio / elastic - 1.0):.2g} % from "
-        f"elastic_poissons_ratio = {elastic:.3g}: points soften below 25 % of the peak; the latter "
-        "is that of the elastic rock"
+        f"elastic_poissons_ratio = {elastic:.3g}: points soften below 25 % of the peak; use the "
+        "latter for the elastic rock"
     ]
 
 
@@ -421,13 +428,14 @@ def of_first_cracks(
     if notched:
         return [
             f"first_crack_distance = {distance:.2g} of the ligament from the notch, is above "
-            f"{largest:g}: the specimen breaks elsewhere first, and its fracture_toughness is none "
-            f"of the rock ({stresses}); take a deeper notch, smaller grains or a higher cohesion"
+            f"{largest:g}: the specimen breaks elsewhere first, and its fracture_toughness is not "
+            f"a property of the rock ({stresses}); use a deeper notch, smaller grains or a higher "
+            "cohesion"
         ]
     return [
         f"first_crack_distance = {distance:.2g} of the radius from the middle, is above "
-        f"{largest:g}: the disc breaks at the plates first, and its stress is no "
-        f"tensile strength ({stresses}); take a higher cohesion, smaller grains or curved jaws"
+        f"{largest:g}: the disc breaks at the plates first, and its stress is not a tensile "
+        f"strength ({stresses}); use a higher cohesion, smaller grains or curved jaws"
     ]
 
 
@@ -487,15 +495,18 @@ def of_divergence(step: int, reason: str = "") -> str:
         reason: Cause of the end, if it is known.
     """
     found = reason or (
-        "a number was not finite any more or faces of a solid had turned over; lower the rate or "
-        "check what is driven"
+        "a number was not finite or 3D faces were inverted; lower the rate or check the driven "
+        "parts"
     )
     return f"the record ends before step {step}: {found}"
 
 
 def of_lost_gauge(name: str) -> str:
     """Warn of a gauge on an erased grain."""
-    return f"gauge {name} reads a node of a grain that was erased, which stays where it was"
+    return (
+        f"gauge {name} reads a node of an erased grain, which no longer moves; rows from there on "
+        "are not valid, place another gauge"
+    )
 
 
 def _of_values(where: str, values: Mapping[str, object]) -> Iterator[str]:

@@ -254,4 +254,6 @@ def read_events(path: Path) -> list[AnyEvent]:
         ]
         return _with_heights(found, heights)
     except (ValueError, KeyError) as error:
-        raise InputError(f"events = {str(path)!r}, holds no events: {error}") from None
+        raise InputError(
+            f"events = {str(path)!r}, is not a table of events: {error}; give events.csv of a run"
+        ) from None

@@ -77,7 +77,9 @@ class Curve(Shown):
         """Add one row; every column must be named (nan where a quantity is not defined)."""
         if values.keys() != set(self.columns):
             wrong = sorted(values.keys() ^ set(self.columns))
-            raise TypeError(f"Curve.append: columns {wrong} missing or unknown")
+            raise TypeError(
+                f"Curve.append: columns {wrong} are missing or unknown; give each column once"
+            )
         if self._rows == len(self._data):
             self._data = np.concatenate([self._data, np.empty_like(self._data)])
         self._data[self._rows] = [values[name] for name in self.columns]
@@ -122,8 +124,8 @@ class Curve(Shown):
             import pandas
         except ImportError:
             raise InputError(
-                "Curve.to_pandas: pandas = not installed, must be; install python3-pandas, or take "
-                "`array` and `columns`"
+                "Curve.to_pandas: pandas is not installed; install python3-pandas, or use `array` "
+                "and `columns`"
             ) from None
         whole = dict.fromkeys(INTEGERS, np.int64)
         return pandas.DataFrame(self.array.copy(), columns=list(self.columns)).astype(whole)
@@ -169,7 +171,10 @@ class Curve(Shown):
         try:
             found = np.array(rows, dtype=float).reshape(len(rows), len(names))
         except ValueError as error:
-            raise InputError(f"record = {str(path)!r}, holds no numbers: {error}") from None
+            raise InputError(
+                f"record = {str(path)!r}, is not a table of numbers: {error}; give curve.csv of a "
+                "run"
+            ) from None
         names, found = _present(names, found)
         own = [name for name in names if name not in COLUMNS]
         columns = [

@@ -54,13 +54,15 @@ def require_sense(file: Path, content: Table, known: Iterable[Field[object]]) ->
     name, fields = f"result = {str(file)!r}", [*known]
     missing = [one.name for one in fields if _is_required(one) and one.name not in content]
     if missing:
-        raise InputError(f"{name}, lacks {', '.join(missing)}; give that of a test")
+        raise InputError(f"{name}, has no {', '.join(missing)}; give result.json of a test")
     for one in fields:
         value = content.get(one.name)
         if one.name in content and not (_fits(one, value) and _is_in_range(one.name, value)):
-            raise InputError(f"{name}, has {one.name} = {str(value)[:80]}; give that of a test")
+            raise InputError(
+                f"{name}, has {one.name} = {str(value)[:80]}; give result.json of a test"
+            )
     for what in _wrong(content):
-        raise InputError(f"{name}, has {what} that no run has; give that of a test")
+        raise InputError(f"{name}, has {what} that no run has; give result.json of a test")
 
 
 def _wrong(content: Table) -> Iterator[str]:

@@ -166,8 +166,8 @@ def hoek_brown(confinements: Sequence[float], peaks: Sequence[float]) -> HoekBro
     line = stats.linregress(x, (y - x) ** 2)
     if not (line.slope > 0.0 and line.intercept > 0.0):
         raise InputError(
-            f"hoek_brown: peaks = {', '.join(f'{peak:.4g}' for peak in y)} Pa, must rise more than "
-            "the confinement from a positive strength; check the peaks"
+            f"hoek_brown: peaks = {', '.join(f'{peak:.4g}' for peak in y)} Pa, must increase "
+            "faster than the confining pressure, from a positive strength; check the peaks"
         )
     start = math.sqrt(line.intercept)
     if len(x) < 3:
@@ -216,14 +216,18 @@ def _checked(
     x, y = np.asarray(confinements, dtype=float), np.asarray(peaks, dtype=float)
     if x.shape != y.shape or x.ndim != 1:
         raise InputError(
-            f"{where}: peaks = {y.size} values, must be one for each of {x.size} confinements"
+            f"{where}: peaks = {y.size} values, must be one per confining pressure, {x.size}; give "
+            "arrays of equal length"
         )
     for name, values, at_least in (("confinements", x, 0.0), ("peaks", y, -math.inf)):
         wrong = values[~(np.isfinite(values) & (values >= at_least))]
         if len(wrong):
-            raise InputError(f"{where}: {name} = {wrong[0]} Pa, must be finite and not negative")
+            raise InputError(
+                f"{where}: {name} = {wrong[0]} Pa, must be finite and not negative; correct it"
+            )
     if len(np.unique(x)) < 2:
         raise InputError(
-            f"{where}: confinements = {x.tolist()} Pa, must hold at least two different values"
+            f"{where}: confinements = {x.tolist()} Pa, must have at least two different values; "
+            "add a test at another confining pressure"
         )
     return x, y

@@ -81,8 +81,8 @@ def write_vtu(
         return
     if not isinstance(snapshot, Snapshot):
         raise InputError(
-            f"write_vtu: snapshot = {quoted(snapshot)}, must be that of `built.snapshot()`, behind "
-            "the name of the file"
+            f"write_vtu: snapshot = {quoted(snapshot)}, must be a snapshot; call write_vtu(file, "
+            "built.snapshot())"
         )
     grid = vtkUnstructuredGrid()
     _set_geometry(grid, snapshot)

@@ -74,8 +74,8 @@ def rig(
     if built.specimen.kind not in _HELD:
         other = "no rig holds" if is_solid(built.specimen.kind) else "flexpm.PartRig holds"
         raise InputError(
-            f"rig: specimen = {built.specimen.kind}, must be one of {', '.join(_HELD)}; {other} "
-            "any other"
+            f"rig: specimen = {built.specimen.kind}, must be one of {', '.join(_HELD)}; use "
+            f"{other} for other shapes"
         )
     kept = KeptTest.of(built, "rig", leaves, pull=tension)
     made = _fitting(built, tension, runner if kept is None else kept.runner)

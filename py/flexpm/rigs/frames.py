@@ -244,7 +244,10 @@ def read(folder: Path) -> list[Frame]:
         ]
         return _known(found)
     except ValueError as error:
-        raise InputError(f"frames = {str(folder / TABLE)!r}, is no list: {error}") from None
+        raise InputError(
+            f"frames = {str(folder / TABLE)!r}, is not a list of frames: {error}; give the folder "
+            "of a run with frames"
+        ) from None
 
 
 def _known(rows: Sequence[Sequence[object]]) -> list[Frame]:

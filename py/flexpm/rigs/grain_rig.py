@@ -131,7 +131,7 @@ class GrainRig(TestRig):
             raise InputError(f"load: {error}") from None
         except RuntimeError as error:  # a piece of the specimen is free to move
             raise InputError(
-                f"load: {error}, or lay parts that the loading does not lift"
+                f"load: {error}, or add parts that the loading does not lift"
             ) from None
 
     def _new_frame(self) -> wrapper.TestFrame:
@@ -270,8 +270,8 @@ class GrainRig(TestRig):
         first = self._recorder
         if control and first.loading is not None and control != first.controlled:
             raise InputError(
-                f"Loading: control = {control!r}, must be that of the first loading of the "
-                f"record, {first.controlled or 'none'}"
+                f"Loading: control = {control!r}, must be as in the first loading of the record, "
+                f"{first.controlled or 'none'}; start a new rig to change it"
             )
 
     def _measures(self) -> tuple[str, ...]:

@@ -201,7 +201,7 @@ class PartLayout:
         """Return centre and radius [m] of the specimen, which must be a disc."""
         outline = self.built.specimen.outline
         if not isinstance(outline, Circle):
-            raise InputError("jaw: specimen = no disc, must be one; lay supports")
+            raise InputError("jaw: the specimen is not a disc; use support() for other shapes")
         return (outline.x, outline.y), outline.radius
 
     def hold(
@@ -233,7 +233,7 @@ class PartLayout:
         axes = _require_axes(axes, self._axes)
         if (disc if self._axes == SPACE else ball) is not None:
             name, other = ("disc", "ball") if self._axes == SPACE else ("ball", "disc")
-            raise InputError(f"hold: {name} = given, must be left out here; give a {other}")
+            raise InputError(f"hold: {name} = given, must not be given here; give a {other}")
         self._require_scene("hold")
         solver = self.built.solver
         nodes, places = solver.nodePlaces(bonded=True)
@@ -283,8 +283,8 @@ class PartLayout:
             some = min(found)
             there = part(self, solver, "a plate" if part is Part else "held nodes", some)
             raise InputError(
-                f"{kind}: part = another one than the {len(found)} that the scene has still, as "
-                f"{there}; must be one of them: make the calls with which it began, or O.reset()"
+                f"{kind}: the call places another part than the {len(found)} left in the scene, "
+                f"e.g. {there}; repeat the calls with which the scene began, or call O.reset()"
             )
         found.remove(number)
         return number
@@ -329,8 +329,8 @@ class PartLayout:
         """Raise an error unless the scene is the scene of the rig."""
         if self.built.solver is not self._solver or self._solver not in yade.O.engines:
             raise InputError(
-                f"{what}: scene = another one than that of the rig, must be the same; after "
-                "O.reset() or O.load() make a new rig"
+                f"{what}: the scene is not the scene of the rig; make a new rig after O.reset() or "
+                "O.load()"
             )
 
 
@@ -341,7 +341,7 @@ def _require_axes(axes: object, there: str) -> str:
     if isinstance(axes, str) and axes and axes == "".join(one for one in there if one in axes):
         return axes
     rule = "x, y or xy" if there == PLANE else f"some of {there}, in this order"
-    raise InputError(f"hold: axes = {quoted(axes)}, must be {rule}")
+    raise InputError(f"hold: axes = {quoted(axes)}, must be {rule}; correct them")
 
 
 def strip_of(label: str, strip: float | None) -> float:

@@ -64,7 +64,7 @@ class PartColumns(PartLayout):
         except ValueError as error:
             raise InputError(f"{label}: {error}") from None
         if strain and not length > 0.0:
-            raise InputError(f"{label}: length = 0 m, must be above 0; take points further off")
+            raise InputError(f"{label}: length = 0 m, must be > 0; choose points further apart")
         apart = [two[axis] - one[axis] for axis in range(len(self._axes))]
         direction = require_direction(label, apart if along is None else along, self._axes)
         base = length if strain else 0.0
@@ -96,7 +96,9 @@ class PartColumns(PartLayout):
         label = f"gauge {self._gauge_name(name)}"
         jaw = require_part(f"{label}: part", self, jaw, Part)
         if not self.built.solver.plates()[jaw.number]["radius"]:
-            raise InputError(f"{label}: part = {jaw}, must be a jaw")
+            raise InputError(
+                f"{label}: part = {jaw}, must be a jaw; pass a part that jaw() returned"
+            )
         self._add_gauge(name, wrapper.Gauge(plate=jaw.number, reads="contact_angle"))
 
     def rotation_of(self, name: str, part: Part) -> None:
@@ -107,7 +109,7 @@ class PartColumns(PartLayout):
         label = f"gauge {self._gauge_name(name)}"
         part = require_part(f"{label}: part", self, part, Part)
         if not self.built.solver.plates()[part.number]["seated"]:
-            raise InputError(f"{label}: part = {part}, must be seated")
+            raise InputError(f"{label}: part = {part}, must be seated; place it with seated=True")
         self._add_gauge(name, wrapper.Gauge(plate=part.number, reads="angle"))
 
     def _watch_machine(self, plate: int, unit: tuple[float, float, float]) -> None:
@@ -182,7 +184,8 @@ class PartColumns(PartLayout):
         text = require_column("gauge", name, taken)
         if self._begun:
             raise InputError(
-                f"gauge = {text!r}, must be one with which the record has begun: {there}"
+                f"gauge = {text!r}, must be a gauge of the record, {there}; make a new rig to "
+                "add gauges"
             )
         return text
 
@@ -199,7 +202,8 @@ class PartColumns(PartLayout):
             now, asked = getattr(there, trait), getattr(gauge, trait)
             if now != asked and name not in recorder.lostGauges():
                 raise InputError(
-                    f"gauge {name}: {trait} = {asked}, must be as the record has begun, {now}"
+                    f"gauge {name}: {trait} = {asked}, must be {now} as in the record; make a new "
+                    "rig to change it"
                 )
 
     def _measures(self) -> tuple[str, ...]:

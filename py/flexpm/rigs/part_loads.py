@@ -65,7 +65,7 @@ class PartLoads(PartLayout):
         moved = require_parts("drive: part", self, parts, RigPart)
         held = require_parts("drive: part against", self, against, RigPart)
         if not moved:
-            raise InputError("drive: parts = none, must be at least 1")
+            raise InputError("drive: parts = none, must be >= 1; pass a part of the rig")
         require_apart("drive: part", moved, held)
         for part in moved:
             if isinstance(part, HeldNodes):
@@ -180,8 +180,7 @@ class PartLoads(PartLayout):
         behind = [n for n, one in enumerate(plates) if one["machine"]]
         if set(behind) - set(numbers(moved, Part)):
             raise InputError(
-                "drive: machine = behind a plate that does not load, must be behind what loads; "
-                "make a new rig"
+                "drive: the machine is behind a plate that does not load; make a new rig"
             )
         there = self.machine
         lays = there == 0.0 and soft is not None and not self._begun
@@ -212,7 +211,7 @@ class PartLoads(PartLayout):
         if not isinstance(frame, wrapper.PartFrame):
             raise InputError(
                 f"part rig: frame of the scene's record = {type(frame).__name__}, must be a "
-                "PartFrame; build the specimen anew"
+                "PartFrame; build the specimen again"
             )
         return frame
 
@@ -263,7 +262,7 @@ def _require_soft(
     """Return the stiffness of a machine [N/m], which must move one plate along its normal."""
     stiffness = require_number("drive: machine", machine, POSITIVE, "N/m")
     if len(moved) != 1 or not isinstance(moved[0], Part):
-        raise InputError("drive: machine: parts = others than one plate, must be one plate alone")
+        raise InputError("drive: a machine needs exactly one driven plate; drive one plate")
     normal = moved[0].normal
     way = unit[: len(normal)]
     if abs(abs(np.dot(normal, way)) - 1.0) > _ALONG:

@@ -96,8 +96,8 @@ class PartRig(PartColumns, PartExcavation):
         """
         if is_solid(built.specimen.kind) != self._of_solids:
             raise InputError(
-                f"{self._call}: specimen = {built.specimen.kind}, must be a solid; flexpm.PartRig "
-                "takes specimens of 2D and 3D"
+                f"{self._call}: specimen = {built.specimen.kind}, must be 3D; use flexpm.PartRig "
+                "for 2D and 3D"
             )
         rates_of(kind, built.name, solid=self._of_solids)
         kept = KeptTest.of(built, self._call, leaves, kind=kind)
@@ -216,7 +216,9 @@ class PartRig(PartColumns, PartExcavation):
         """
         if isinstance(part, Mapping):
             if pressure is not None:
-                raise InputError("press: pressure, must be left out beside a table of pressures")
+                raise InputError(
+                    "press: pressure and a table of pressures are given; leave out one of them"
+                )
             self._press_all(part)
             return
         part = require_part("press: part", self, part, Part)
@@ -242,7 +244,7 @@ class PartRig(PartColumns, PartExcavation):
 
     def _press(self, pressure: float, ramp: int) -> None:
         if self.pressed is None:
-            raise InputError("confine: part = None, must be one of the rig; call press")
+            raise InputError("confine: part = None, must be a part of the rig; call press")
         self._require_scene("press")
         number = self.pressed.number
         engine = wrapper.PressureController(

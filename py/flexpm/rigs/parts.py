@@ -71,7 +71,7 @@ class RigPart:
         """Return a property that only 2D parts have, or raise InputError."""
         now = self._now
         if name not in now:
-            raise InputError(f"part: {name} of {self}, has none in space")
+            raise InputError(f"part: {name} of {self}, is available in 2D only; leave it out")
         return float(now[name])
 
 
@@ -188,7 +188,9 @@ def require_parts(label: str, rig: object, given: object, kind: type[Kind]) -> l
     if isinstance(given, RigPart):
         given = [given]
     if isinstance(given, str) or not isinstance(given, Iterable):
-        raise InputError(f"{label} = {quoted(given)}, must be parts of the rig")
+        raise InputError(
+            f"{label} = {quoted(given)}, must be parts of the rig; pass a list of parts"
+        )
     return [require_part(label, rig, part, kind) for part in given]
 
 
@@ -196,13 +198,15 @@ def require_part(label: str, rig: object, part: object, kind: type[Kind]) -> Kin
     """Return a part of a rig, or raise InputError."""
     if not isinstance(part, RigPart):
         raise InputError(
-            f"{label} = {quoted(part)}, must be a part as support, platen and hold return it"
+            f"{label} = {quoted(part)}, must be a part; pass a result of support, platen or hold"
         )
     if part.rig is not rig:
-        raise InputError(f"{label} = {part} of another rig, must be one of this rig; lay it here")
+        raise InputError(
+            f"{label} = {part} of another rig, must be a part of this rig; create it with this rig"
+        )
     if not isinstance(part, kind):
         wanted = "held nodes; call hold" if kind is HeldNodes else "a support or a platen"
-        raise InputError(f"{label} = {part}, must be {wanted}")
+        raise InputError(f"{label} = {part}, must be {wanted} of this rig")
     return part
 
 
@@ -211,7 +215,7 @@ def require_apart(label: str, *lists: Sequence[RigPart]) -> None:
     seen: list[tuple[type, int]] = []
     for part in (part for parts in lists for part in parts):
         if (type(part), part.number) in seen:
-            raise InputError(f"{label} = {part}, is there twice, must be once")
+            raise InputError(f"{label} = {part}, is given twice; give it once")
         seen.append((type(part), part.number))
 
 

@@ -64,7 +64,9 @@ def require_column(label: str, name: object, taken: Sequence[str]) -> str:
     """Return a name that a column may have beside others, or raise InputError."""
     text = require_name(label, name)
     if text in taken:
-        raise InputError(f"{label} = {quoted(name)}, must not be the name of another column")
+        raise InputError(
+            f"{label} = {quoted(name)}, must not be the name of another column; choose another name"
+        )
     return text
 
 
@@ -86,25 +88,32 @@ def in_region(
     """
     word, dimension = ("ball" if axes == SPACE else "disc"), len(axes)
     if sum(region is not None for region in (box, ball, where)) != 1:
-        raise InputError(f"hold: region = none or several, must be one of box, {word} and where")
+        raise InputError(f"hold: give exactly one of box, {word} and where")
     if box is not None:
-        ends = _several(f"hold: box = {quoted(box)}, must be two opposite corners", box)
+        ends = _several(f"hold: box = {quoted(box)}, must be two opposite corners; give both", box)
         label = "hold: corner of the box"
         corners = np.array([require_vector(label, one, axes=axes)[:dimension] for one in ends])
         low, high = corners.min(axis=0), corners.max(axis=0)
         found: BoolArray = np.all((places >= low) & (places <= high), axis=1)
     elif ball is not None:
-        both = _several(f"hold: {word} = {quoted(ball)}, must be a centre and a radius", ball)
+        both = _several(
+            f"hold: {word} = {quoted(ball)}, must be a centre and a radius; give both", ball
+        )
         radius = require_number(f"hold: radius of the {word}", both[1], POSITIVE, "m")
         middle = require_vector(f"hold: centre of the {word}", both[0], axes=axes)[:dimension]
         found = np.linalg.norm(places - np.array(middle), axis=1) <= radius
     else:
         if not callable(where):
             words = f"{', '.join(axes[:-1])} and {axes[-1]}"
-            raise InputError(f"hold: where = {quoted(where)}, must be a function of {words}")
+            raise InputError(
+                f"hold: where = {quoted(where)}, must be a function of {words}; pass e.g. a lambda"
+            )
         found = np.asarray(where(*places.T))
         if found.shape != places.shape[:1] or found.dtype != bool:
-            raise InputError("hold: where = another array, must be one truth for each place")
+            raise InputError(
+                f"hold: where() must return one bool per position, got {found.dtype} of shape "
+                f"{found.shape} for {len(places)}"
+            )
     return found
 
 
@@ -153,9 +162,15 @@ class Jaw:
             )
         radius = require_number("jaw: radius", radius, POSITIVE, "m")
         if radius < rim * (1.0 - _SAME):
-            raise InputError(f"jaw: radius = {radius:g} m, must be >= {rim:g} m, the disc's")
+            raise InputError(
+                f"jaw: radius = {radius:g} m, must be >= {rim:g} m, the radius of the disc; give a "
+                "larger radius"
+            )
         if angle is None and radius <= rim * (1.0 + _SAME):
-            raise InputError("jaw: angle = None, must be given for the disc's own radius")
+            raise InputError(
+                "jaw: angle = None, must be given if the jaw has the radius of the disc; give an "
+                "angle [rad]"
+            )
         before = _WIDEST if angle is None else require_number("jaw: angle", angle, _ANGLE, "rad")
         there = rim / long
         return cls((way[0] * there, way[1] * there), max(radius, rim), before)

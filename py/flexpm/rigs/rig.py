@@ -121,8 +121,9 @@ class TestRig(RigReadings):
     def roughen(self, friction: float) -> None:
         """Raise InputError: ends with friction are available for 3D specimens of grains only."""
         raise InputError(
-            f"roughen: friction = {quoted(friction)}, is for solids of flexible or rigid grains "
-            "between their ends; leave it out, or give the plates of a PartRig friction"
+            f"roughen: friction = {quoted(friction)}, is available for 3D specimens of flexible or "
+            "rigid grains between platens; leave it out, or use a PartRig with friction of its "
+            "plates"
         )
 
     def load(self, loading: Loading | None = None) -> None:
@@ -139,7 +140,9 @@ class TestRig(RigReadings):
         """
         loading = Loading() if loading is None else loading
         if not isinstance(loading, Loading):
-            raise InputError(f"load: loading = {quoted(loading)}, must be a flexpm.Loading")
+            raise InputError(
+                f"load: loading = {quoted(loading)}, must be a flexpm.Loading; pass Loading(...)"
+            )
         self._tell("load", **asdict(loading))
         begin = partial(self.start, loading)
         if loading.static:
@@ -310,7 +313,9 @@ class TestRig(RigReadings):
         self._refuse_preload()
 
     def _refuse_preload(self) -> NoReturn:
-        raise SimulationError(f"load: static = True, must be False for model {self.built.name}")
+        raise SimulationError(
+            f"load: static = True, must be False for model {self.built.name}; leave it out"
+        )
 
     def _step(self) -> None:
         yade.O.step()
@@ -329,8 +334,8 @@ class TestRig(RigReadings):
             self._watching = False
         if yade.O.iter != done or not yade.O.engines:
             raise SimulationError(
-                f"watch: scene = step {yade.O.iter} with {len(yade.O.engines)} engines, must stay "
-                f"at step {done} with those of the test; let it only look"
+                f"watch: the callback changed the scene (step {done} to {yade.O.iter}, "
+                f"{len(yade.O.engines)} engines); it may only read"
             )
 
     @property
@@ -423,8 +428,8 @@ class TestRig(RigReadings):
 
     def _does_not_bear(self, stage: str, stress: float) -> SimulationError:
         return SimulationError(
-            f"{stage}: axial stress = {self.stress:.6g} Pa, must come to {stress:.6g} Pa; "
-            f"the specimen does not bear it{self._borne}"
+            f"{stage}: axial stress = {self.stress:.6g} Pa, must come to {stress:.6g} Pa; the "
+            f"specimen does not carry it; give a smaller stress{self._borne}"
         )
 
     @property

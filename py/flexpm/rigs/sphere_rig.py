@@ -53,7 +53,7 @@ _LOOKS_A_CROSSING = 8
 _LOOKS_KEPT = 50
 #: Name of the rig's state in what goes with the scene.
 _STATE = "rig"
-_NO_PRESSURE = "must be of flexible or rigid grains in a solid; pressure acts on no sphere there"
+_NO_PRESSURE = "no pressure acts on 3D spheres; use flexible or rigid grains"
 
 
 @dataclass

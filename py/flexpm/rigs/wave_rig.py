@@ -168,7 +168,9 @@ class WaveRig(GrainRig):
         self._refuse("load")
 
     def _refuse(self, stage: str) -> NoReturn:
-        raise SimulationError(f"{stage}: test = {self.kind}, must be one that loads; call send")
+        raise SimulationError(
+            f"{stage}: test = {self.kind}, must be a test with a loading; call send"
+        )
 
     def _shape(self, grain: int) -> wrapper.LaguerreCell:
         shape = yade.O.bodies[self.built.solver.bodyIds[grain]].shape

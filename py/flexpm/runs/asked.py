@@ -57,8 +57,8 @@ def read_inputs(file: Path) -> tuple[RunSpec, Material]:
     if is_own(inputs):
         why = f", {inputs['reason']}" if inputs.get("reason") else ""
         raise InputError(
-            f"result = {str(file)!r}, is of a script's own test (repeatable = false{why}), must be "
-            "of a run; start that script again"
+            f"result = {str(file)!r}, is of a custom test (repeatable = false{why}), must be of a "
+            "run; start its script again"
         )
     if not isinstance(inputs, Mapping) or not isinstance(inputs.get("material"), Mapping):
         raise InputError(
@@ -92,8 +92,8 @@ def _material_of(file: Path, spec: RunInputs) -> Material:
         name = next(key for key in {**found, **spec.material} if _differ(found, spec.material, key))
         raise InputError(
             f"result = {str(file)!r}, has material {name} = {str(spec.material.get(name))[:80]}, "
-            "which this version cannot take from a result; give the material's own file to flexpm "
-            "run"
+            "which this version cannot read from a result; give the file of the material to "
+            "flexpm run"
         )
     return material
 

@@ -367,8 +367,8 @@ def _refuse_other_build(file: Path, there: Table, here: Table) -> None:
 
 def _other_build(file: Path, reason: str) -> InputError:
     return InputError(
-        f"run: {file} = written by another build of flexpm ({reason}), must be of this one; choose "
-        "another folder, go on with that build, or remove the file to start again"
+        f"run: {file} was written by another build of flexpm ({reason}); choose another folder, "
+        "resume with that build, or remove the file to start again"
     )
 
 
@@ -376,6 +376,6 @@ def _refuse_differences(folder: Path, there: Table, here: Table) -> None:
     for name in {**here, **there}:
         if there.get(name) != here.get(name):
             raise InputError(
-                f"out = {str(folder)!r}, holds a checkpoint of another run ({name} = "
+                f"out = {str(folder)!r}, has a checkpoint of another run ({name} = "
                 f"{str(there.get(name))[:80]} there, {here.get(name)} here); choose another folder"
             )

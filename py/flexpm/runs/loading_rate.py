@@ -102,7 +102,8 @@ class Loading:
         require_text("Loading: control", self.control)
         if self.control and self.static:
             raise InputError(
-                f"Loading: static = True, must be False under control of {self.control}"
+                f"Loading: static = True, must be False under control of {self.control}; leave it "
+                "out"
             )
 
 
@@ -196,8 +197,8 @@ def _waiting(rates: Rates, model: str, damage_share: float) -> tuple[float, tupl
     """Return the largest factor and the running shares of a crack-controlled loading [-]."""
     if rates.running_share is None:
         raise InputError(
-            f"Loading: kind = waiting, must be another for model {model}; waiting is for "
-            f"{' and '.join(WAITING_MODELS)} grains"
+            f"Loading: kind = waiting, must be adaptive or constant for model {model}; waiting is "
+            f"for {' and '.join(WAITING_MODELS)} grains"
         )
     share = max(damage_share, _BRITTLE_PART) * rates.running_share
     return rates.waiting_constant / rates.constant, (share, _SHARE_AFTER_PEAK * share)

@@ -46,7 +46,7 @@ def refuse_other_kind(folder: Path, kind: str) -> None:
     found = kind_of(folder) or ("run" if (folder / BEGUN).is_file() else None)
     if found is not None and found != kind:
         raise InputError(
-            f"out = {str(folder)!r}, holds results of {_SAID.get(found, found)}, must be free for "
+            f"out = {str(folder)!r}, has results of {_SAID.get(found, found)}, must be free for "
             f"those of {_SAID.get(kind, kind)}; choose another folder"
         )
 
@@ -76,7 +76,7 @@ def refuse_other_result(folder: Path, spec: RunSpec) -> None:
     if not same:
         whose = "another run" if is_of_flexpm(file) else "another program"
         raise InputError(
-            f"out = {str(folder)!r}, holds a {RESULT} of {whose}, which would be replaced; choose "
+            f"out = {str(folder)!r}, has a {RESULT} of {whose}, which would be replaced; choose "
             "another folder"
         )
 

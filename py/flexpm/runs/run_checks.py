@@ -92,7 +92,9 @@ def _check_unused(run: RunInputs) -> None:
 def _refuse(run: RunInputs, name: str, value: object) -> NoReturn:
     if name == "halvings":  # a rate that is found by halving it
         name, value = "rate", AUTO
-    raise InputError(f"run: {with_unit(name, value)}, must not be given for {run.test}")
+    raise InputError(
+        f"run: {with_unit(name, value)}, must not be given for {run.test}; leave it out"
+    )
 
 
 def _check_numbers(run: RunInputs) -> None:
@@ -108,8 +110,8 @@ def _check_numbers(run: RunInputs) -> None:
     _set(run, "stop_ratio", require_number("run: stop_ratio", run.stop_ratio, bounds))
     if isinstance(run.confinement, list | tuple):  # as the command takes them
         raise InputError(
-            f"run: confinement = {quoted(run.confinement)} Pa, must be one number; that across y "
-            "of a box is second_confinement"
+            f"run: confinement = {quoted(run.confinement)} Pa, must be one number; give "
+            "second_confinement for the pressure across y of a box"
         )
     confinement = require_number("run: confinement", run.confinement, _PRESSURE, "Pa")
     _set(run, "confinement", confinement)
@@ -187,7 +189,10 @@ def _check_test(run: RunInputs) -> None:
             shape = run.specimen.kind
             confined = names(lambda kind: Stage.CONFINE in kind.stages and shape in kind.solids)
             hint = f"; use {confined[0]}" if confined else ""
-        raise InputError(f"run: confinement = {run.confinement} Pa, must be 0 for {run.test}{hint}")
+        raise InputError(
+            f"run: confinement = {run.confinement} Pa, must be 0 for "
+            f"{run.test}{hint or '; leave it out'}"
+        )
 
 
 def require_shape(kind: TestKind, shape: str) -> None:
@@ -201,7 +206,10 @@ def require_shape(kind: TestKind, shape: str) -> None:
         others = [one for one in kind.solids if one != kind.shape]
         if is_solid(shape) and others:
             hint = f", or a {' or a '.join(others)}{hint}"
-        raise InputError(f"run: specimen = {shape}, must be a {kind.shape} for {kind.name}{hint}")
+        raise InputError(
+            f"run: specimen = {shape}, must be a {kind.shape} for "
+            f"{kind.name}{hint or '; change the shape or the test'}"
+        )
 
 
 def _check_solid(run: RunInputs) -> None:
@@ -214,8 +222,8 @@ def _check_solid(run: RunInputs) -> None:
             raise refused(asked, name)
     if run.dynamic and run.model in SPHERE_MODELS:
         raise InputError(
-            f"run: dynamic = True, must be False for {run.model} of a {run.specimen.kind}; take "
-            "flexible or rigid grains"
+            f"run: dynamic = True, must be False for {run.model} grains in a {run.specimen.kind}; "
+            "use flexible or rigid grains"
         )
 
 

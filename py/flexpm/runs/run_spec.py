@@ -136,7 +136,7 @@ class RunSpec(RunInputs):
         """
         for name in ("test", "specimen", "material"):
             if name not in content:
-                raise InputError(f"inputs {name} is missing; give that of the run")
+                raise InputError(f"inputs {name} is missing; give result.json of the run")
         plain = _known([*_FIELDS, *OWN_OPTIONS], content)
         test = plain["test"]
         dynamic = isinstance(test, str) and kind_of(test).dynamic
@@ -278,7 +278,7 @@ def _material_changes(material: Table) -> Table:
 
 def _known(names: Sequence[str], content: object) -> Table:
     if not isinstance(content, Mapping):
-        raise InputError(f"inputs = {content!r}, must be fields by name")
+        raise InputError(f"inputs = {content!r}, must be a table; give result.json of a run")
     for name in content:
         require_known("inputs", name, names)
     return dict(content)

@@ -208,6 +208,6 @@ class Runner:
             self._progress(done, max(self.position.stage_likely, 1.05 * done), text)
             if yade.O.iter != done or len(yade.O.bodies) != bodies or not yade.O.engines:
                 raise SimulationError(
-                    f"progress: scene = step {yade.O.iter} with {len(yade.O.bodies)} bodies, must "
-                    f"stay at step {done} with {bodies}; let the callback only look"
+                    f"progress: the callback changed the scene (step {done} to {yade.O.iter}, "
+                    f"{bodies} to {len(yade.O.bodies)} bodies); it may only read"
                 )

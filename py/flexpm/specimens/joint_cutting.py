@@ -135,13 +135,16 @@ class Excavatable(ABC):
         """
         if not isinstance(excavations, Mapping) or not excavations:
             raise InputError(
-                f"excavations = {quoted(excavations)}, must be polygons or circles by their name"
+                f"excavations = {quoted(excavations)}, must be polygons or circles by their name; "
+                f"give {{name: polygon}}"
             )
         cut = self
         for name, given in excavations.items():
             label = EXCAVATION + require_name("excavation: name", name)
             if label in cut.joints:
-                raise InputError(f"excavation {name}: name = {name}, is there, must be another one")
+                raise InputError(
+                    f"excavation {name}: name = {name}, exists already; choose another name"
+                )
             ring = ring_of(name, given, cut.mean_diameter)
             polygon_outline(f"excavation {name}", ring)
             cells = cut.tessellation
@@ -165,7 +168,8 @@ class Excavatable(ABC):
         there = [one.removeprefix(EXCAVATION) for one in self.joints if one.startswith(EXCAVATION)]
         if not there:
             raise InputError(
-                f"excavation = {quoted(name)}, the specimen has none; make it by with_excavations"
+                f"excavation = {quoted(name)}, does not exist in the specimen; add it with "
+                "with_excavations"
             )
         require_known("excavation", name, there)
         cells = self.tessellation

@@ -85,7 +85,9 @@ def disc_rows(centres: npt.ArrayLike, radii: npt.ArrayLike) -> FloatArray:
     try:
         sizes = np.array(radii, dtype=float)
     except (TypeError, ValueError):
-        raise InputError("Specimen.from_discs: radii are no numbers; give one per centre") from None
+        raise InputError(
+            "Specimen.from_discs: radii are not numbers; give one per centre"
+        ) from None
     if sizes.shape != (len(points),):
         raise InputError(
             f"Specimen.from_discs: radii = array of shape {sizes.shape}, must be one per centre, "
@@ -116,8 +118,8 @@ def mineral_indices(minerals: npt.ArrayLike, grains: int) -> IntArray:
     given = np.asarray(minerals)
     if given.shape != (grains,) or given.dtype.kind not in "iu" or given.min() < 0:
         raise InputError(
-            f"Specimen.with_minerals: minerals = {given.dtype} array of shape {given.shape}, "
-            f"must be {grains} indices from 0, one for each grain"
+            f"Specimen.with_minerals: minerals = {given.dtype} array of shape {given.shape}, must "
+            f"be {grains} indices from 0; give one per grain"
         )
     given = given.astype(np.int32)
     given.setflags(write=False)

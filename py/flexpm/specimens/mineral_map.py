@@ -66,7 +66,7 @@ def minerals_of(specimen: AnySpecimen, material: Material) -> IntArray | None:
         for place, name in enumerate(specimen.mineral_names):
             if name in names and names.index(name) != place:
                 raise InputError(
-                    f"specimen mineral {place + 1} = {name}, is number {names.index(name) + 1} of "
+                    f"specimen mineral {place + 1} = {name}, is mineral {names.index(name) + 1} of "
                     f"{material.name}; give its [[mineral]] tables the order "
                     f"{', '.join(specimen.mineral_names)}"
                 )

@@ -33,7 +33,10 @@ def polygon_outline(
         if any(np.array_equal(np.roll(given, first, axis=0), box) for first in range(4)):
             outer = box
     if isinstance(holes, str) or not isinstance(holes, Sequence | np.ndarray):
-        raise InputError(f"{where}: holes = {quoted(holes)}, must be a list of polygons")
+        raise InputError(
+            f"{where}: holes = {quoted(holes)}, must be a list of polygons; put one polygon in "
+            "brackets, too"
+        )
     inner = [ring(f"{where}: hole {number}", hole) for number, hole in enumerate(holes)]
     return call(PolygonOutline, outer, inner)
 

@@ -94,13 +94,15 @@ def packing_of(name: str, in_order: Sequence[object], named: Packing) -> Packing
         TypeError: for an unknown, repeated or surplus argument, as Python does.
     """
     if len(in_order) > len(_IN_ORDER):
-        raise TypeError(f"{name}() takes {', '.join(_IN_ORDER)} in order, the rest by keyword")
+        raise TypeError(
+            f"{name}() takes {', '.join(_IN_ORDER)} by position; pass the others by keyword"
+        )
     found = dict(zip(_IN_ORDER, in_order, strict=False))
     for key in named:
         if key in found:
-            raise TypeError(f"{name}() got multiple values for argument {key!r}")
+            raise TypeError(f"{name}() got multiple values for argument {key!r}; give it once")
         if key not in Packing.__annotations__:
-            raise TypeError(f"{name}() got an unexpected keyword argument {key!r}")
+            raise TypeError(f"{name}() got an unexpected keyword argument {key!r}; remove it")
     return cast("Packing", found | named)
 
 

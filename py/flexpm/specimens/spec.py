@@ -93,7 +93,10 @@ class SpecimenSpec:
 
     def __post_init__(self) -> None:
         if self.kind not in SIZES:
-            raise InputError(f"specimen kind = {self.kind!r}, must be one of {', '.join(SIZES)}")
+            raise InputError(
+                f"specimen kind = {self.kind!r}, must be one of {', '.join(SIZES)}; choose one of "
+                "them"
+            )
         where = f"Specimen.{self.kind}"
         for name in _ALL_SIZES:
             self._set(name, self._size(where, name))
@@ -170,8 +173,8 @@ class SpecimenSpec:
         for name, _ in self.asked_intensities:
             if name in lines:
                 raise InputError(
-                    f"joint {name}: name = {name}, is that of a set of the specimen's network; "
-                    "take another name"
+                    f"joint {name}: name = {name}, is the name of a set of the network; choose "
+                    "another name"
                 )
         names = [*(self.joint_names or ()), *lines]
         return replace(
@@ -195,8 +198,8 @@ class SpecimenSpec:
         for name in network["set"]:
             if name in earlier:
                 raise InputError(
-                    f"network set {name}: name = {name}, is that of a joint which the specimen "
-                    "has; take another name"
+                    f"network set {name}: name = {name}, is the name of a joint of the specimen; "
+                    "choose another name"
                 )
         return replace(self.with_joints(lines), networks=(*(self.networks or ()), network))
 
@@ -238,7 +241,7 @@ class SpecimenSpec:
         for what, one in (("joints", self.joints), ("strengths of contacts", self.strengths)):
             if one is not None:
                 raise InputError(
-                    f"model = {model}, must be flexible or rigid for a specimen with {what}; take "
+                    f"model = {model}, must be flexible or rigid for a specimen with {what}; use "
                     "one of them"
                 )
 
@@ -249,8 +252,8 @@ class SpecimenSpec:
         what = next((kind for kind, one in kinds.items() if one is not None), "")
         if what:
             raise InputError(
-                f"model = {model}, must be one of cells for a specimen of {what}; use flexible or "
-                "rigid"
+                f"model = {model}, must be flexible or rigid for a specimen of {what}; use one of "
+                "them"
             )
 
     def _check_packing(self, where: str) -> None:

@@ -421,7 +421,9 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
             SimulationError: for a circle, which no test between parts accepts.
         """
         if isinstance(self.outline, Circle):
-            raise SimulationError("outline = a circle, must be a polygon for a test between parts")
+            raise SimulationError(
+                "outline = circle, must be a polygon for a test between parts; use another shape"
+            )
         (left, bottom), (right, top) = self.outline.min(axis=0), self.outline.max(axis=0)
         return (left, bottom), (right, top)
 
@@ -494,4 +496,7 @@ def require_specimen(where: str, given: object) -> None:
         InputError: for any other value.
     """
     if not isinstance(given, AnySpecimen):
-        raise InputError(f"{where}: specimen = {quoted(given)}, must be a Specimen")
+        raise InputError(
+            f"{where}: specimen = {quoted(given)}, must be a Specimen; pass e.g. "
+            "Specimen.rectangle(...)"
+        )

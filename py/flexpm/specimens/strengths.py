@@ -23,8 +23,8 @@ def checked(factors: Sequence[float] | FloatArray, count: int) -> FloatArray:
     numbers = given.shape == (count,) and given.dtype.kind in "iuf"
     if not numbers or not (np.isfinite(given).all() and given.min(initial=1.0) > 0.0):
         raise InputError(
-            f"Specimen.with_strengths: factors = {given.dtype} array of shape {given.shape}, "
-            f"must be {count} numbers above 0, one for each contact"
+            f"Specimen.with_strengths: factors = {given.dtype} array of shape {given.shape}, must "
+            f"be {count} numbers > 0; give one per contact"
         )
     strengths = np.array(given, dtype=float)
     strengths.setflags(write=False)

@@ -280,7 +280,9 @@ def _about(content: Table, path: Path) -> Table:
     asked = require_list(f"{label} confinements", about.get("confinements", CONFINEMENTS))
     pressures = [require_number(f"{label} confinements", one, NOT_NEGATIVE, "Pa") for one in asked]
     if len(set(pressures)) != len(pressures) or len(pressures) < 2:
-        raise InputError(f"{label} confinements = {asked}, must be two or more, each once")
+        raise InputError(
+            f"{label} confinements = {asked}, must be two or more, each once; correct them"
+        )
     return about | {"confinements": tuple(pressures)}
 
 
@@ -345,7 +347,7 @@ def _bounds(label: str, bounds: object) -> tuple[float, float]:
 
 def _require(label: str, value: object, holds: bool, rule: str) -> None:
     if not holds:
-        raise InputError(f"calibration {label} = {quoted(value)}, must be {rule}")
+        raise InputError(f"calibration {label} = {quoted(value)}, must be {rule}; correct it")
 
 
 def key_of(measure: str) -> str:

@@ -183,7 +183,9 @@ class Search:
         if not keys:
             return {}
         if not targets:
-            raise InputError(f"calibration [free] {keys[0]}: no elastic target tells it; remove it")
+            raise InputError(
+                f"calibration [free] {keys[0]}: no elastic target determines it; remove it"
+            )
         start = np.array([values[key] for key in keys])
         bounds = np.array([self._plan.free[key] for key in keys]).T
 
@@ -322,7 +324,7 @@ class Search:
                 raise  # wrong from the start
             # keys that do not go together
             nothing: Measures = {t.name: [None] * len(runs.seeds_of(t)) for t in targets}
-            return nothing, {t.name: f"refused: {error}" for t in targets}
+            return nothing, {t.name: f"rejected: {error}" for t in targets}
         done = len(self.history)
         assert self._pool is not None
         outcomes = self._pool.run(

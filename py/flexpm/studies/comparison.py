@@ -228,8 +228,8 @@ def table(cases: Sequence[Case]) -> str:
     for model, reach in farther.items():
         if reach is not None:
             drawn += (
-                f"\n  {model} bonds pairs within {reach:g} (R1 + R2), too; its pairs are not those "
-                "of the other models"
+                f"\n  {model} also bonds pairs within {reach:g} (R1 + R2), more pairs than the "
+                "other models"
             )
     used = {case.model: name_of(case.material.name) for case in cases}
     if len(set(used.values())) == 1:
@@ -259,7 +259,7 @@ def _materials(
 def _each_once(name: str, values: Sequence[Value]) -> list[Value]:
     found = list(values)
     if not found or len(set(found)) != len(found):
-        raise InputError(f"compare: {name} = {found}, must be one or more, each once")
+        raise InputError(f"compare: {name} = {found}, must be one or more, each once; correct them")
     return found
 
 

@@ -190,7 +190,7 @@ def _place(label: str, value: object) -> tuple[float, float]:
         InputError: for anything else.
     """
     if not isinstance(value, list | tuple) or len(value) != 2:
-        raise InputError(f"{label} = {quoted(value)} m, must be two numbers, x and y")
+        raise InputError(f"{label} = {quoted(value)} m, must be two numbers, x and y; give [x, y]")
     x, y = (require_number(label, one, unit="m") for one in value)
     return x, y
 
@@ -217,8 +217,8 @@ def _specimen(test: str, used: Table) -> AnySpec:
         for key in _PACKED:
             if key in used:
                 raise InputError(
-                    f"study {key} = {used[key]}, must not be given with specimen, which has its "
-                    "own; leave one out"
+                    f"study {key} = {used[key]}, must not be given with specimen, whose file "
+                    "contains it; leave out one of them"
                 )
     packed = None if "specimen" in used else RunSpec.packed(test, used)
     file, joints, network = (Path(used[key]) if key in used else None for key in _FILES)

@@ -76,7 +76,7 @@ def refuse_others(wanted: Sequence[Job], folder: Path) -> None:
         ended = jobs.known(place)
         begun = _key_of(place / "checkpoint.json")
         if (ended is not None and ended.get("key") != job.key) or begun not in (None, job.key):
-            raise InputError(f"out = {place}, holds a run of other inputs; take another folder")
+            raise InputError(f"out = {place}, has a run with other inputs; choose another folder")
 
 
 def run(

@@ -57,8 +57,8 @@ def require_results(folder: Path) -> Path:
     """
     if kind_of(folder) is None:
         raise InputError(
-            f"report: folder = {str(folder)!r}, holds none of {', '.join(KINDS)}; give the folder "
-            "of a run, compare, study or calibrate"
+            f"report: folder = {str(folder)!r}, has none of {', '.join(KINDS)}; give the folder of "
+            "a run, compare, study or calibrate"
         )
     return folder
 
@@ -95,8 +95,8 @@ def write(folder: Path) -> Path:
         # each file is a table of a run; what they say does not fit together
         about = " ".join(str(error).split())[:80]
         raise InputError(
-            f"report: folder = {str(folder)!r}, holds files that were changed or do not fit each "
-            f"other ({about}); repeat the run"
+            f"report: folder = {str(folder)!r}, has files that were changed or belong to different "
+            f"runs ({about}); repeat the run"
         ) from error
     return folder / FILE
 

@@ -43,7 +43,7 @@ def require_workers(workers: int, cores: int) -> None:
     require_whole("workers", workers, Bounds(at_least=1))
     if workers > _MOST * cores:
         raise InputError(
-            f"workers = {workers}, must be <= {_MOST * cores} on a machine of {cores} cores; take "
+            f"workers = {workers}, must be <= {_MOST * cores} on a machine of {cores} cores; use "
             "fewer, or a cluster"
         )
 
@@ -69,7 +69,7 @@ class Pool:
         """Take the options of a study; `folder` holds the folders of the jobs."""
         if scheduler is not None and cluster is not None:
             raise InputError(
-                f"scheduler = {scheduler!r}, must not be given with cluster; leave one out"
+                f"scheduler = {scheduler!r}, must not be given with cluster; leave out one of them"
             )
         if workers is not None and scheduler is None and cluster is None:
             require_workers(workers, len(os.sched_getaffinity(0)))

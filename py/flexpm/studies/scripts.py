@@ -71,7 +71,7 @@ class Script:
         except (SyntaxError, ValueError, RecursionError) as error:
             about = " ".join(str(error).split())[:80]
             raise InputError(
-                f"study script = {str(self.file)!r}, is no Python script: {about}"
+                f"study script = {str(self.file)!r}, is not a Python script: {about}; correct it"
             ) from None
 
     def checksum(self) -> str:
@@ -172,13 +172,13 @@ def make(script: Script, inputs: Table, checksum: str) -> ScriptJob:
         if not key.isidentifier() or key in _TAKEN:
             raise InputError(
                 f"study key = {quoted(key)}, must be the name of a parameter, and none of "
-                f"{', '.join(_TAKEN)}"
+                f"{', '.join(_TAKEN)}; rename it"
             )
         plain = value if isinstance(value, list) else [value]
         if not all(isinstance(one, bool | int | float | str) for one in plain):
             raise InputError(
                 f"study {key} = {quoted(value)}, must be a number, a text, a truth value or a list "
-                "of these"
+                "of these; convert it"
             )
     return ScriptJob(given, script, checksum)
 
@@ -225,8 +225,8 @@ def _file_of(function: Callable[..., object]) -> Path:
         or getattr(module, name, None) is not function
     ):
         raise InputError(
-            f"study: function = {quoted(function)}, cannot be sent to workers; it must be a "
-            "function with a name at the top of a script, not within another one"
+            f"study: function = {quoted(function)}, cannot be sent to workers; define it with def "
+            "at the top level of a script"
         )
     return Path(file)
 
@@ -266,7 +266,9 @@ def parameters(**defaults: Value) -> Mapping[str, Value]:
     """
     found, given = dict(defaults), sys.argv[1:]
     if len(given) % 2 or not all(one.startswith("--") for one in given[::2]):
-        raise InputError(f"options = {quoted(' '.join(given))}, must be pairs of --name value")
+        raise InputError(
+            f"options = {quoted(' '.join(given))}, must be pairs of --name value; complete them"
+        )
     for option, text in zip(given[::2], given[1::2], strict=True):
         name = spelt(option.removeprefix("--"))
         if name not in defaults:
@@ -281,11 +283,13 @@ def _like(label: str, text: str, default: Value) -> Value:
     if isinstance(default, bool):
         if text.lower() in ("true", "false"):
             return text.lower() == "true"
-        raise InputError(f"{label} = {quoted(text)}, must be true or false")
+        raise InputError(f"{label} = {quoted(text)}, must be true or false; choose one")
     try:
         return kind(text)
     except ValueError:
-        raise InputError(f"{label} = {quoted(text)}, must be of type {kind.__name__}") from None
+        raise InputError(
+            f"{label} = {quoted(text)}, must be of type {kind.__name__}; correct it"
+        ) from None
 
 
 def _of_folder(folder: Path) -> tuple[int, str]:

@@ -177,7 +177,9 @@ def combinations(content: Table) -> Iterator[Table]:
     grid = flat("study [grid]", content.get("grid", {}))
     for key, values in grid.items():
         if not require_list(f"study [grid] {key}", values):
-            raise InputError(f"study [grid] {key} = [], must be a list of values")
+            raise InputError(
+                f"study [grid] {key} = [], must be a list of values; give at least one"
+            )
     cases = require_tables("study [[case]]", content.get("case", [{}]))
     count = len(cases) * math.prod(map(len, grid.values()))
     if count > MOST_RUNS:

@@ -60,5 +60,5 @@ TEST_CASE("A team is kept while its size stays")
 
 TEST_CASE("A team of no thread is refused")
 {
-    CHECK_THROWS_WITH(ThreadTeam(0), Catch::Contains("threads = 0, must be at least 1"));
+    CHECK_THROWS_WITH(ThreadTeam(0), Catch::Contains("threads = 0, must be >= 1"));
 }

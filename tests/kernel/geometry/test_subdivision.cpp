@@ -233,6 +233,5 @@ TEST_CASE("inner cells do not depend on anything but the grains", "[inner]")
         CHECK(one.discs[i].centre.x == two.discs[i].centre.x);
         CHECK(one.discs[i].radius == two.discs[i].radius);
     }
-    CHECK_THROWS_WITH(
-        flexpm::make_inner_cells(s.cells, 0.0), Catch::Contains("between 1 and 1000"));
+    CHECK_THROWS_WITH(flexpm::make_inner_cells(s.cells, 0.0), Catch::Contains("must be 1 to 1000"));
 }

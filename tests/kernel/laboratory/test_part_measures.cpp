@@ -87,9 +87,10 @@ TEST_CASE("A support presses evenly on just its part of the outline, about its m
 TEST_CASE("A support needs an outline that faces it")
 {
     Assembly a = grains();
-    CHECK_THROWS_WITH(add_patch_plate(a, patch(0.01, 0.02, 1e-3), {}), Catch::Contains("face it"));
     CHECK_THROWS_WITH(
-        add_patch_plate(a, patch(0.01, 0.0, 1e-3, { 0.0, -1.0 }), {}), Catch::Contains("face it"));
+        add_patch_plate(a, patch(0.01, 0.02, 1e-3), {}), Catch::Contains("edges at a support = 0"));
+    CHECK_THROWS_WITH(add_patch_plate(a, patch(0.01, 0.0, 1e-3, { 0.0, -1.0 }), {}),
+        Catch::Contains("edges at a support = 0"));
     CHECK_THROWS_WITH(add_patch_plate(a, patch(0.01, 0.0, 0.0), {}), Catch::Contains("length"));
     CHECK(a.plates.empty());
 }
@@ -105,7 +106,7 @@ TEST_CASE("Plates do not lie on each other, and a support lies on the outline")
     refused(patch(0.01, 0.0, 2e-3), "lies on plate 0");
     refused(patch(0.013, 0.0, 1.9e-3), "lies on plate 1");
     CHECK_THROWS_WITH(add_side_plates(a, 0, 1, {}), Catch::Contains("lies on plate 0"));
-    refused(patch(0.01, height, 2.0 * width), "which its side has");
+    refused(patch(0.01, height, 2.0 * width), "the length of its side");
     refused(patch(0.01, height + 5e-4, 1e-3), "off the outline");
     refused(patch(-1e-3, height, 4e-3), "off the outline");
     CHECK(a.plates.size() == 2);
@@ -140,12 +141,12 @@ TEST_CASE("Parts that leave the specimen free to move are named before the loadi
         CHECK_THROWS_WITH(part_scales(a, parts, 1.0, 1.0), Catch::Contains(text));
     };
     scale_masses(a, 0.7);
-    refused("hold the specimen along x = 0");
+    refused("fix the specimen along x = 0");
     Assembly b = a;
     add_patch_plate(a, patch(0.0, height / 2, 2e-3), { 0.0, 0.0, true });
     scale_masses(a, 0.7);
     // it is held, but not against the load
-    refused("resistance of the supports = 0 N, must be above 0: the specimen moves along y");
+    refused("resistance of the supports = 0 N, must be > 0: the specimen moves along y");
     b.plates.clear();
     const int corner = add_patch_plate(b, patch(width / 2, 0.0, 1e-4), { 0.0, 1.0, true });
     for (PlatePoint& point : b.plates[corner].points)
@@ -153,7 +154,7 @@ TEST_CASE("Parts that leave the specimen free to move are named before the loadi
     b.plates[corner].points[0].area = 1e-6;
     scale_masses(b, 0.7);
     CHECK_THROWS_WITH(part_scales(b, { { corner }, {}, { 0.0, 1.0 }, 1.0, 1.0 }, 1.0, 1.0),
-        Catch::Contains("against turning = 0"));
+        Catch::Contains("against rotation = 0"));
 }
 
 TEST_CASE("The first value of a row that is not finite is named")

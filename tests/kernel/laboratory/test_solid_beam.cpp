@@ -141,11 +141,11 @@ TEST_CASE("Rollers and head of a beam bear along lines across all of its depth",
     }
     SolidState s = make_solid(p.cells, p.solid, granite());
     CHECK_THROWS_WITH(add_line_plate(s, SolidSide::bottom, { 1.0, 0.0, a, false }),
-        Catch::Contains("triangles at x = 1 m, z = 0 m = 0, must be above 0"));
+        Catch::Contains("triangles at x = 1 m, z = 0 m = 0, must be > 0"));
     CHECK_THROWS_WITH(add_line_plate(s, SolidSide::left, { a, 0.0, a, false }),
         Catch::Contains("side = 3, must be 0, the bottom, or 2, the top"));
     CHECK_THROWS_WITH(
-        part_frame(s, few.parts()), Catch::Contains("part = 2, must be the number of a plate"));
+        part_frame(s, few.parts()), Catch::Contains("part = 2, must be the index of a plate"));
 }
 
 TEST_CASE("A beam with stiff contacts is bent as Timoshenko's", "[solids][elastic_bodies]")

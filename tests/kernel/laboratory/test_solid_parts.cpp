@@ -107,7 +107,7 @@ TEST_CASE("A plate touches what of a side is in its box, to the hair", "[solids]
         CHECK(middle.z == Approx(0.5 * high).epsilon(1e-9));
     }
     CHECK_THROWS_WITH(add_patch_plate(s, side(p, right, 2.0 * top.z, 3.0 * top.z)),
-        Catch::Contains("triangles before a plate = 0, must be above 0"));
+        Catch::Contains("triangles before a plate = 0, must be > 0"));
     SolidPatch slanted = side(p, right, 0.0, top.z);
     slanted.normal = { 1.0, 1.0, 0.0 };
     CHECK_THROWS_WITH(add_patch_plate(s, slanted), Catch::Contains("must be a unit vector"));
@@ -184,7 +184,7 @@ TEST_CASE("A plate that no load moves takes none", "[solids]")
     const Packing p = packing(40, 5);
     SolidState s = sheared(p, true);
     CHECK_THROWS_WITH(press(s, 0, 1e6), Catch::Contains("let a load move it"));
-    CHECK_THROWS_WITH(press(s, 9, 1e6), Catch::Contains("plate = 9, must be the number"));
+    CHECK_THROWS_WITH(press(s, 9, 1e6), Catch::Contains("plate = 9, must be the index"));
     CHECK_THROWS_WITH(press(s, 5, -1.0), Catch::Contains("pressure on a plate = -1 Pa"));
     CHECK_THROWS_WITH(
         part_frame(s, { {}, {}, right, 1.0, 1.0 }), Catch::Contains("driven parts = 0"));

@@ -138,7 +138,8 @@ TEST_CASE("Dilation beyond the friction is refused, and so is one below zero")
 {
     ContactMaterial m = joint();
     m.dilation = 0.61;
-    CHECK_THROWS_WITH(flexpm::joint_law(m), "dilation = 0.61, must not exceed the friction 0.6");
+    CHECK_THROWS_WITH(flexpm::joint_law(m),
+        "dilation = 0.61, must be <= the friction 0.6; give a smaller dilation");
     m.dilation = -0.1;
     CHECK_THROWS_AS(flexpm::joint_law(m), std::invalid_argument);
     m = joint();

@@ -222,7 +222,7 @@ TEST_CASE("Two ends that turn against each other load by the sum of their moment
     CHECK(part_scales(a, parts, 1.0, 1.0).modulus
         == Approx(part_load(a, parts) / part_displacement(a, parts)).epsilon(1e-3));
     CHECK_THROWS_WITH(observe(a, part_frame(a, of_sets({ 7 }, {}, 1.0))),
-        Contains("must be the number of a node set"));
+        Contains("must be the index of a node set"));
     CHECK_THROWS_WITH(observe(a, part_frame(a, of_sets({ 0 }, {}))), Contains("direction"));
 }
 
@@ -288,7 +288,7 @@ TEST_CASE("Sets that hold nothing, what is held, or what a plate presses are ref
     CHECK_THROWS_WITH(
         add_node_set(a, { -7 }, { true, true, false }), Contains("that a set may hold"));
     const int set = add_node_set(a, left, { true, false, false });
-    CHECK_THROWS_WITH(add_node_set(a, left, { true, true, false }), Contains("is held already"));
+    CHECK_THROWS_WITH(add_node_set(a, left, { true, true, false }), Contains("is fixed already"));
     CHECK(a.node_sets.size() == 1);
     add_node_set(a, left, { false, true, false });
     CHECK_THROWS_WITH(

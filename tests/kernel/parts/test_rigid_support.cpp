@@ -28,7 +28,7 @@ void refused(const RigidSupport& support, const char* motion)
 
 TEST_CASE("A body that nothing holds against its loading moves along with it")
 {
-    refused(pressed(), "the specimen moves along y with what is driven");
+    refused(pressed(), "the specimen moves along y with the driven parts");
     refused(pressed({ half, 0.0, 0.0 }, x), "moves along x");
     RigidSupport guided = pressed({ 0.0, 0.0, half }, z);
     for (const double side : { -half, half })
@@ -42,13 +42,13 @@ TEST_CASE("A body between two supports out of line turns, and between three rest
     for (const double aside : { 0.5e-6, 0.1 * half, -half }) {
         RigidSupport support = pressed();
         support.add({ aside, -half, 0.0 }, y, stiff, 0.0);
-        refused(support, "turns about z");
+        refused(support, "rotates about z");
         support.add({ -0.5 * half, -half, 0.0 }, y, stiff, 0.0);
         CHECK_NOTHROW(support.require_resistance());
     }
     RigidSupport in_space = pressed({ 0.0, 0.0, half }, z);
     in_space.add({ 0.0, 1e-3, -half }, z, stiff, 0.0);
-    refused(in_space, "turns about x");
+    refused(in_space, "rotates about x");
 }
 
 TEST_CASE("Supports in line with the loading resist, however soft they are")
@@ -74,7 +74,7 @@ TEST_CASE("A rotation is resisted by another one, also of sets that are free to 
         };
         RigidSupport support({}, 4.0 * half);
         turned(support, half, 1.0);
-        refused(support, "turns about z");
+        refused(support, "rotates about z");
         turned(support, -half, -1.0);
         CHECK_NOTHROW(support.require_resistance());
     }

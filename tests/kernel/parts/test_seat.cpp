@@ -240,5 +240,5 @@ TEST_CASE("A point at the seat bears without turning the plate, and is not alone
     CHECK(p.points[1].arm.z == 0.0);
     Assembly one = specimens::assemble(specimens::grid(1, 1, size), o);
     CHECK_THROWS_WITH(add_side_plates(one, top_side, 1, { 0.0, 0.0, false, 0.0, true }),
-        "points of a seated plate = 1, must be at least 2, apart");
+        "points of a seated plate = 1, must be >= 2 at different positions; use a longer plate");
 }

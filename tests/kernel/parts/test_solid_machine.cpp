@@ -161,8 +161,7 @@ TEST_CASE("A crosshead of space that goes back takes the plate off", "[solids]")
 TEST_CASE("What is no soft machine is refused", "[solids]")
 {
     Pressed test(box(40, 3), true, false);
-    CHECK_THROWS_WITH(
-        set_machine(test.s, 2, 1e6), Catch::Contains("plate = 2, must be the number"));
+    CHECK_THROWS_WITH(set_machine(test.s, 2, 1e6), Catch::Contains("plate = 2, must be the index"));
     CHECK_THROWS_WITH(
         set_machine(test.s, 1, 0.0), Catch::Contains("stiffness of a machine = 0 N/m"));
     set_machine(test.s, 1, 1e6);

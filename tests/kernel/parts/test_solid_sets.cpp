@@ -200,7 +200,7 @@ TEST_CASE("A set holds along its axes alone", "[solids]")
     CHECK_THROWS_WITH(set_pivot(s, set, { 0.0, none, 0.0 }), Catch::Contains("pivot"));
     CHECK_THROWS_WITH(add_node_set(s, {}, all), Catch::Contains("nodes of a set = 0"));
     CHECK_THROWS_WITH(add_node_set(s, { s.node_sets[set].nodes.front() }, all),
-        Catch::Contains("is held already"));
+        Catch::Contains("is fixed already"));
     CHECK_THROWS_WITH(add_node_set(s, { -5 }, all), Catch::Contains("node of a set = -5"));
     CHECK_THROWS_WITH(add_node_set(s, between(s, 0.5 * height, height), { false, false, false }),
         Catch::Contains("axes of a set = 0"));

@@ -41,5 +41,5 @@ TEST_CASE("spheres are inserted inside and apart", "[space]")
             CHECK(norm(centres[i] - centres[j]) >= 0.5 * (radii[i] + radii[j]));
     }
     CHECK_THROWS_WITH(
-        insert_spheres({ 0.03 }, solid, 0.5, 1), Catch::Contains("must find a free place"));
+        insert_spheres({ 0.03 }, solid, 0.5, 1), Catch::Contains("must fit into the outline"));
 }

@@ -214,7 +214,7 @@ TEST_CASE("A solid from which gravity pulls a grain is not stepped any more")
         flexpm::find_loose(s);
         CHECK(s.grains.loose == Loose { 1, 0, 0 });
         CHECK_THROWS_WITH(flexpm::require_joined(s),
-            Catch::Contains("loose under gravity = 1, the first at (0.0015, 0.0015, 0.0015) m"));
+            Catch::Contains("detached under gravity = 1, the first at (0.0015, 0.0015, 0.0015) m"));
         flexpm::set_gravity(s, {});
         CHECK_NOTHROW(flexpm::require_joined(s));
     }

@@ -174,7 +174,7 @@ def test_a_file_that_is_a_folder_is_named(capsys, tmp_path):
 def test_a_folder_in_place_of_a_file_is_named_before_the_run(capsys, tmp_path, name):
     (tmp_path / name).mkdir()
     assert cli.main(["run", *SOON, "--out", str(tmp_path)]) == 2
-    assert f"holds a folder {name}" in one_line(capsys.readouterr().err)
+    assert f"contains a folder {name}" in one_line(capsys.readouterr().err)
     assert [file.name for file in tmp_path.iterdir()] == [name]
 
 

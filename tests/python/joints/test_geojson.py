@@ -131,23 +131,23 @@ def system(name):
 
 
 WRONG = [
-    ("{", "is no GeoJSON"),
-    ("[1]", "is no GeoJSON"),
+    ("{", "is not GeoJSON"),
+    ("[1]", "is not GeoJSON"),
     (system("urn:ogc:def:crs:OGC:1.3:CRS84"), "is in degrees, must be in metres"),
     (system("EPSG:4326"), "is in degrees"),
     (system("urn:ogc:def:crs:EPSG::7844"), "is in degrees"),
     (changed(crs={"type": "link"}), "must have a name; save it projected"),
     (changed(features=[]), "lines = 0, must be >= 1"),
     (changed(features=3), "features = 3, must be a list"),
-    (changed(features=[3]), "feature = 3, must be one of GeoJSON"),
+    (changed(features=[3]), "feature = 3, must be a GeoJSON feature"),
     (of_line([[0, 0]]), "line = [[0, 0]], must be two points or more"),
     (of_line([[0, 0], [1, "a"]]), "geometry 1: point = [1, 'a'], must be numbers x, y"),
     (of_line([[0, 0], [1, True]]), "must be numbers x, y"),
-    (of_line([[0, 0], [1, 1]]).replace("[1, 1]", "[1, NaN]"), "NaN is no number"),
+    (of_line([[0, 0], [1, 1]]).replace("[1, 1]", "[1, NaN]"), "NaN is not a finite number"),
     (of_line([[0, 0], [1, 1]]).replace("[1, 1]", "[1, 1e999]"), "must be numbers x, y"),
     (of_line([[0, 0], [1, 1]], other="a"), "property 'set' = None, must be a text or a number"),
     (of_line([[0, 0], [1, 1]], set="a.b"), "must be a name without spaces, dots"),
-    (of_line([[0, 0], [0, 0]], set="a"), "must not be there twice"),
+    (of_line([[0, 0], [0, 0]], set="a"), "start and end of a line without length"),
 ]
 
 

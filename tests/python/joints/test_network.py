@@ -244,7 +244,7 @@ def test_traces_are_clipped_to_the_window():
         ({"intensity": math.nan}, "intensity = nan 1/m, must be finite"),
         ({"intensity": 1e6}, "traces expected = 5.787e.05 in a window .*, must be <= 20000"),
         ({"intensity": 1e9}, "traces expected = .*, must be <= 20000"),
-        ({"length": {**POWER, "exponent": 2.0}}, "exponent = 2, must be > 2: .* no mean"),
+        ({"length": {**POWER, "exponent": 2.0}}, "exponent = 2, must be > 2: .* a mean only"),
         ({"length": {**POWER, "exponent": math.inf}}, "exponent = inf, must be finite"),
         ({"length": {**POWER, "largest": 4e-3}}, "smallest = 0.004 m, must be < largest"),
         ({"length": {**LOGNORMAL, "largest": 1e-3}}, "smallest = 0.004 m, must be < largest"),

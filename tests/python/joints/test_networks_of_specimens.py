@@ -86,8 +86,10 @@ def test_a_network_joins_other_joints(rectangle, file, tmp_path):
     assert both.spec == SpecimenSource.read(rectangle.spec, None, table, file).spec
     fault.save(tmp_path / "fault.json")
     assert both.spec == SpecimenSource.read(None, tmp_path / "fault.json", network=file).spec
-    refusal("set weak: name = weak, is that of a joint which", both.with_network, file)
-    with pytest.raises(InputError, match="is that of a set of the specimen's network"):
+    refusal(
+        "set weak: name = weak, is the name of a joint of the specimen", both.with_network, file
+    )
+    with pytest.raises(InputError, match="is the name of a set of the network"):
         both.with_joints({"weak": [(0.0, 0.01), (0.01, 0.02)]})
     assert [*both.network_intensities()] == ["weak"]
 
@@ -159,7 +161,7 @@ def test_studies_have_networks_with_seeds_of_their_own(file, tmp_path):
         ("120.0", "1e-6", "traces in the specimen = 0"),
         ("[set.weak]", "[set.'a b']", "must be a name without spaces"),
         ("seed = 3", "seed = -3", "network seed = -3, must be >= 0"),
-        ("seed = 3", "seed =", "is no valid TOML file"),
+        ("seed = 3", "seed =", "is not a valid TOML file"),
     ],
 )
 def test_the_command_refuses_in_one_line(file, tmp_path, capsys, old, new, message):

@@ -173,7 +173,7 @@ def test_a_polygon_is_excavated_after_loading_and_the_record_stays_in_balance(wh
     rig.excavate("room")
     assert rig.built.counts()["grains"] < grains
     rig.excavate("shaft")  # what is left of it
-    refusal("excavate: name = shaft, is excavated", rig.excavate, "shaft")
+    refusal("excavate: name = shaft, is already excavated", rig.excavate, "shaft")
     rig.stress_to(9e6)
     assert rig.warnings == []
     assert [stage["stage"] for stage in rig.stages][3:6] == ["excavate", "excavate", "stress_to"]
@@ -208,7 +208,7 @@ def test_a_script_that_is_started_again_finds_what_was_excavated(sawn, tmp_path)
         ({3: [(2e-3, 2e-3), (8e-3, 8e-3), (8e-3, 2e-3)]}, "name = 3, must be a text"),
         ({"a": 3.0}, "must be a polygon, rows x, y, or a circle"),
         ({}, "must be polygons or circles by their name"),
-        ({"tunnel": CIRCLE}, "name = tunnel, is there"),
+        ({"tunnel": CIRCLE}, "name = tunnel, exists"),
     ],
 )
 def test_lines_that_cannot_be_excavated_are_refused_in_one_line(sawn, given, told):
@@ -220,7 +220,7 @@ def test_what_would_hang_on_nothing_is_refused_and_nothing_is_taken(whole):
     rig, _ = made(whole.with_excavations(rings))
     held = rig.hold(disc=((0.006, 0.006), 2e-4))
     grains = rig.built.counts()["grains"]
-    with pytest.raises(InputError, match="has held nodes at .* within, must have none") as refused:
+    with pytest.raises(InputError, match="contains held nodes at .*; hold other nodes") as refused:
         rig.excavate("outer")
     assert "\n" not in str(refused.value) and held.nodes
     refusal("unknown .did you mean inner", rig.excavate, "iner")
@@ -229,14 +229,16 @@ def test_what_would_hang_on_nothing_is_refused_and_nothing_is_taken(whole):
     assert rig.built.counts()["grains"] == grains
     assert rig.stages == []
     plain, _ = made(whole)
-    refusal("the specimen has none; make it by with_excavations", plain.excavate, "tunnel")
+    refusal(
+        "does not exist in the specimen; add it with with_excavations", plain.excavate, "tunnel"
+    )
 
 
 def test_an_island_is_refused(whole):
     slots = {"c": _ring_with_a_gap(0.003, 0.0045), "plug": ((0.006, 0.00225), 0.0012)}
     rig, _ = made(whole.with_excavations(slots))
     rig.excavate("c")
-    refusal(r"leaves \d+ grains at .* that hang on nothing", rig.excavate, "plug")
+    refusal(r"leaves \d+ grains at .* without a connection to a part", rig.excavate, "plug")
 
 
 def _ring_with_a_gap(inner: float, outer: float) -> np.ndarray:

@@ -42,13 +42,13 @@ def test_results_of_another_kind_are_not_replaced(capsys, tmp_path, commands, fi
     out.mkdir()
     (out / name).write_text("{}")
     (out / "report.html").write_text("of others")
-    refused_command(capsys, "holds results of", *commands[then], "--out", out)
+    refused_command(capsys, "has results of", *commands[then], "--out", out)
     assert contents(out) == {name: b"{}", "report.html": b"of others"}
 
 
 def test_packings_do_not_go_into_the_folder_of_a_run_that_has_begun(capsys, tmp_path, commands):
     (tmp_path / "checkpoint.json").write_text("{}")
-    refused_command(capsys, "holds results of run", *commands["packings"], "--out", tmp_path)
+    refused_command(capsys, "has results of run", *commands["packings"], "--out", tmp_path)
 
 
 @pytest.mark.parametrize("discard", [False, True])

@@ -135,13 +135,16 @@ def test_nodes_that_cannot_be_held_are_refused_in_one_line(bar):
     rig, (left, _) = held(bar, "rigid")
     plate = rig.support((LENGTH / 2, 0.0))
     for wrong, message in (
-        (lambda: rig.hold(), "hold: region = none or several"),
-        (lambda: rig.hold(box=((0, 0), (1, 1)), disc=((0, 0), 1)), "hold: region = none or"),
+        (lambda: rig.hold(), "hold: give exactly one of box, disc and where"),
+        (lambda: rig.hold(box=((0, 0), (1, 1)), disc=((0, 0), 1)), "hold: give exactly one of"),
         (lambda: rig.hold(disc=((0, 0), -1.0)), "hold: radius of the disc = -1.0 m"),
-        (lambda: rig.hold(where=lambda x, y: x), "hold: where = another array"),
+        (
+            lambda: rig.hold(where=lambda x, y: x),
+            r"hold: where\(\) must return one bool per position, got float64 of shape",
+        ),
         (lambda: rig.hold(box=((0, 0), (1, 1)), axes="z"), "hold: axes = 'z', must be x, y or xy"),
         (lambda: rig.hold(box=((1, 1), (2, 2))), "hold: nodes of a set = 0"),
-        (lambda: rig.hold(box=((0, 0), (END, HEIGHT))), "held already"),
+        (lambda: rig.hold(box=((0, 0), (END, HEIGHT))), "fixed already"),
         (lambda: rig.hold(disc=((LENGTH / 2, 0.001), 0.002)), "lies on a plate"),
         (lambda: rig.support((0.001, 0.0)), "support: .* lies on a plate"),
         (lambda: rig.platen(3), "platen: .* lies on a plate"),

@@ -184,7 +184,7 @@ def test_what_is_no_jaw_of_a_disc_is_refused_in_one_line():
     top = (0.0, RADIUS)
     for call, message in (
         (lambda: rig.jaw(top, 0.9 * RADIUS), "jaw: radius = 0.0135 m, must be >= 0.015 m"),
-        (lambda: rig.jaw(top, RADIUS), "jaw: angle = None, must be given for the disc's own"),
+        (lambda: rig.jaw(top, RADIUS), "jaw: angle = None, must be given if the jaw has"),
         (lambda: rig.jaw(top, np.inf), "jaw: radius = inf"),
         (lambda: rig.jaw(top, 1.0, angle=0.0), "jaw: angle = 0.0 rad, must be > 0"),
         (lambda: rig.jaw(top, 1.0, angle=3.0), "jaw: angle = 3.0 rad, must be <="),
@@ -199,7 +199,7 @@ def test_what_is_no_jaw_of_a_disc_is_refused_in_one_line():
     rig.jaw(top, 1.5 * RADIUS, friction=0.2)
     refusal("jaw: .* lies on plate 0", rig.jaw, top, 1.5 * RADIUS)
     plain = flexpm.PartRig(fresh(flexpm.Specimen.rectangle(0.02, 0.02, 0.01), None, "rigid"))
-    refusal("jaw: specimen = no disc", plain.jaw, (0.01, 0.02), 0.05)
+    refusal("jaw: the specimen is not a disc", plain.jaw, (0.01, 0.02), 0.05)
     side = plain.platen(2)
     refusal("gauge angle: part = platen .* must be a jaw", plain.contact_angle_of, "angle", side)
 
@@ -267,7 +267,7 @@ def test_a_jaw_of_the_discs_own_radius_touches_all_of_its_angle(disc):
     assert high.normal == pytest.approx((-0.8, 0.0, -0.6))
     rig.drive(high, (-0.8, 0.0, -0.6), against=low)
     # pushed aside over a smooth support, its points neither stay open nor stick
-    with pytest.raises(InputError, match="points of plates stay open or closed"):
+    with pytest.raises(InputError, match="until no plate contact opens or closes"):
         rig.elastic(displacement=1e-6)
     plates = rig.built.solver.plates()
     assert plates[high.number]["radius"] == pytest.approx(RIM, rel=0.02)  # of the prism
@@ -287,7 +287,7 @@ def test_a_jaw_that_is_laid_again_is_found(disc, tmp_path):
     yade.O.load(str(tmp_path / "scene.bin"), quiet=True)
     rig.built.rebind()
     again = flexpm.SolidPartRig(rig.built)
-    refusal("must be one of them", again.jaw, (0, 0, RIM), 1.6 * RIM, angle=0.5)
+    refusal("the call places another part than the", again.jaw, (0, 0, RIM), 1.6 * RIM, angle=0.5)
     assert again.jaw((0, 0, RIM), 1.5 * RIM, angle=0.5).number == 0
 
 
@@ -302,10 +302,10 @@ def test_what_no_jaw_is_is_refused(disc):
         (lambda: rig.jaw((RIM, 0, 0), 2 * RIM, angle=3.0), "angle = 3.0 rad, must be <="),
         (lambda: rig.jaw((RIM, 0, 0), 2 * RIM, strip=0), "strip = 0.* Pa/m, must be > 0"),
         (lambda: rig.jaw((RIM, 0, 0), 2 * RIM, friction=-1), "friction = -1, must be >= 0"),
-        (lambda: rig.jaw((0, 0, RIM), 1.5 * RIM), "before two plates = .*take another place"),
+        (lambda: rig.jaw((0, 0, RIM), 1.5 * RIM), "before two plates = .*use another position"),
         (
             lambda: rig.support((0, 0.5 * DEPTH, RIM), 0.3 * RIM, normal=(0, 0, -1)),
-            "before two plates = .*take another place",
+            "before two plates = .*use another position",
         ),
         (lambda: rig.contact_angle_of("contact", rig.platen(4)), "part = .*, must be a jaw"),
         (lambda: rig.contact_angle_of("contact", held), "must be a support or a platen"),
@@ -314,4 +314,4 @@ def test_what_no_jaw_is_is_refused(disc):
     for call, told in refused:
         refusal(told, call)
     box = flexpm.Specimen.box(0.012, 0.012, 0.012, seed=1)
-    refusal("jaw: specimen = no disc, must be one", lambda: rig_of(box).jaw((0, 0, 0), 1.0))
+    refusal("jaw: the specimen is not a disc", lambda: rig_of(box).jaw((0, 0, 0), 1.0))

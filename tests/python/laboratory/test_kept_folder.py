@@ -149,8 +149,8 @@ def test_the_result_is_valid(whole):
         ("1e5)", "2e5)", "call 4 = press(part={'part': ['plate', 0]}, pressure=100000.0) there"),
         ("(4e-7, 1e-7)", "(4e-7, 2e-7)", "strain_to(strain=1e-07, rate=4.0) there"),
         ("(2.0 * h, 0.0)", "(2.1 * h, 0.0)", "call 5 = support(position=[0.024, 0.0]) there"),
-        ("seed=1", "seed=2", "holds a checkpoint of another run (seed = 1 there, 2 here)"),
-        ("x < 0.3", "x < 0.4", "hold: part = another one"),
+        ("seed=1", "seed=2", "has a checkpoint of another run (seed = 1 there, 2 here)"),
+        ("x < 0.3", "x < 0.4", "hold: the call places another part"),
     ],
 )
 def test_a_script_that_asks_for_something_else(whole, tmp_path, monkeypatch, old, new, told):
@@ -270,7 +270,7 @@ def test_what_no_call_has_asked_for_cannot_be_made_again(change, why, tmp_path, 
     line = capsys.readouterr().err.strip()
     assert line.count("\n") == 0
     assert why in line
-    assert line.endswith("start that script again")
+    assert line.endswith("start its script again")
 
 
 def test_steps_by_hand_at_the_end_cannot_be_made_again_either(tmp_path):

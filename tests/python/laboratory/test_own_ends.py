@@ -46,7 +46,7 @@ def test_a_load_that_still_rises_at_the_default_end_is_no_peak(solid, tmp_path):
     result = Result.read(tmp_path)
     assert (result.status, result.peak_load, peak_place(result)) == ("no_peak", None, None)
     assert result.failed
-    assert "give Loading(max_strain=...)" in " ".join(result.warnings)
+    assert "give a larger Loading(max_strain=...)" in " ".join(result.warnings)
     # one that the script ends is no failure, but its last load is no peak either
     rig.load(flexpm.Loading(kind="waiting", max_strain=1.5 * reached))
     rig.finish()
@@ -118,10 +118,10 @@ def test_supports_that_let_a_core_turn_are_refused_with_the_motion():
         rig.support((x, 0.0, 0.006), size, normal=(-x / abs(x), 0, 0)) for x in (-0.005, 0.005)
     )
     rig.drive(two, (-1.0, 0.0, 0.0), against=one)
-    line = "load: resistance of the supports = 0 N, must be above 0: the specimen turns about y "
+    line = "load: resistance of the supports = 0 N, must be > 0: the specimen rotates about y "
     with pytest.raises(InputError, match=line) as raised:
         rig.load(WAITING)
-    assert str(raised.value).endswith("give a part friction or a pin, or hold nodes")
+    assert str(raised.value).endswith("give a part friction or a pin, or fix nodes")
 
 
 def curve_of(strain: np.ndarray, stress: np.ndarray) -> Curve:

@@ -148,7 +148,7 @@ def test_the_page_is_made_again_and_nothing_repeats_the_test(broken, tmp_path, c
     capsys.readouterr()
     assert cli.main(["rerun", str(folder), "--out", str(tmp_path / "again")]) == 2
     told = capsys.readouterr().err.strip()
-    assert told.endswith("start that script again")
+    assert told.endswith("start its script again")
     assert "\n" not in told
     assert not (tmp_path / "again").exists()
 

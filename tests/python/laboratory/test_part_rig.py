@@ -245,9 +245,14 @@ LAW = {"normal_stiffness": 1.8e14, "shear_stiffness": 5e13, "friction": 0.5}
     [
         ([(0.03, 0.003), (0.036, 0.006)], {**LAW, "cohesion": 2.9e7}, None, "strength = 2.9e"),
         ([(0.03, 0.003), (0.036, 0.006)], LAW, None, "begins .* m above the bottom"),
-        ([(0.036, 0.0), (0.036, 0.006)], {"open": True}, None, "is .* m beside the middle"),
+        ([(0.036, 0.0), (0.036, 0.006)], {"open": True}, None, "is .* m away from the middle"),
         ([(0.03, 0.012), (0.03, 0.006)], {"open": True}, None, "begins .* m above the bottom"),
-        ([(0.03, 0.0), (0.03, 0.005)], {"open": True}, 0.004, "comes beside the notch of 0.004 m"),
+        (
+            [(0.03, 0.0), (0.03, 0.005)],
+            {"open": True},
+            0.004,
+            "is given in addition to the notch of 0.004 m",
+        ),
     ],
 )
 def test_a_joint_named_notch_that_is_none_is_refused(beam, line, law, notch, message):

@@ -104,7 +104,7 @@ def test_parts_are_those_of_their_rig_and_there_once():
         (lambda: rig.drive([pin, pin], down), "drive: part = support at"),
         (lambda: rig.drive(pin, down, against=[left, right, left]), "drive: part = support at"),
         (lambda: rig.drive(pin, down, against=[pin]), "drive: part = support at"),
-        (lambda: rig.drive([], down), "drive: parts = none, must be at least 1"),
+        (lambda: rig.drive([], down), "drive: parts = none, must be >= 1"),
         (lambda: rig.drive(stranger, down), "drive: part = platen at (0.015, 0) m of another rig"),
         (lambda: rig.drive(pin, down, against=stranger), "drive: part against = platen at"),
         (lambda: rig.drive([pin, 5], down), "drive: part = 5, must be a part"),
@@ -145,7 +145,7 @@ def test_plates_do_not_lie_on_each_other(model):
         lambda: rig.support((0.01, 0.0)),
         lambda: rig.support((0.0125, HEIGHT), 0.002),
     ):
-        refusal("lies on plate [01], must not: both would bear", call)
+        refusal("lies on plate [01], must not: both would carry the load", call)
     beside = rig.support((0.0135, HEIGHT), 0.003)  # it begins where the other one ends
     assert beside.number == 2
     assert beside.width == pytest.approx(0.003)
@@ -186,22 +186,24 @@ def test_a_scene_that_is_taken_up_gives_each_part_back_whatever_the_order(model,
     model.run(20)
     yade.O.save(str(tmp_path / "scene.bin"), quiet=True)
     yade.O.load(str(tmp_path / "scene.bin"), quiet=True)
-    refused("drive: scene = another one", lambda: rig.drive(pin, (0.0, -1.0)))
+    refused("drive: the scene is not", lambda: rig.drive(pin, (0.0, -1.0)))
     model.rebind()
-    refused("support: scene = another one", lambda: rig.support((0.01, 0.0)))
+    refused("support: the scene is not", lambda: rig.support((0.01, 0.0)))
     again = PartRig(model)
-    refused("support: part = another one than the 3", lambda: again.support((0.01, 0.0)))
-    refused("support: part = another one", lambda: again.support((0.015, HEIGHT)))  # no pin
-    refused("support: part = another", lambda: again.support((0.003, 0.0), bonded=True))
-    refused("hold: part = another one than the 2", lambda: again.hold(box=((0, 0), (1, 1))))
-    refused("hold: part = another", lambda: again.hold(box=((0.005, 0.003), (0.008, 0.007))))
+    refused("support: the call places another part than the 3", lambda: again.support((0.01, 0.0)))
+    refused("support: the call places", lambda: again.support((0.015, HEIGHT)))  # no pin
+    refused("support: the call places", lambda: again.support((0.003, 0.0), bonded=True))
+    refused(
+        "hold: the call places another part than the 2", lambda: again.hold(box=((0, 0), (1, 1)))
+    )
+    refused("hold: the call places", lambda: again.hold(box=((0.005, 0.003), (0.008, 0.007))))
     second = again.hold(box=((0.005, 0.003), (0.008, 0.007)), axes="x")
     head = again.support((0.015, HEIGHT), pinned=True)
     rollers = [again.support((x, 0.0)) for x in (0.027, 0.003)]
     first = again.hold(box=((0.013, 0.003), (0.017, 0.007)))
     assert [part.number for part in (*rollers, head)] == [1, 0, 2]
     assert (first.number, second.number) == (held.number, other.number)
-    refused("gauge = 'h', must be one", lambda: again.gauge("h", (0.004, 0.0), (0.026, 0.0)))
+    refused("gauge = 'h', must be a gauge", lambda: again.gauge("h", (0.004, 0.0), (0.026, 0.0)))
     refused("gauge g: first = ", lambda: again.gauge("g", (0.01, 0.0), (0.026, 0.0)))
     refused("gauge g: direction = ", lambda: again.gauge("g", (0.004, 0), (0.026, 0), along=(0, 1)))
     refused("gauge w: plate = 0", lambda: again.displacement_of("w", rollers[1], (0.0, -1.0)))
@@ -220,7 +222,10 @@ def test_two_rigs_of_one_scene_do_not_share_parts():
     model = built()
     top = PartRig(model).platen(2)
     second = PartRig(model)
-    refused("platen: part = another one than the 1 that the scene has", lambda: second.platen(0))
+    refused(
+        "platen: the call places another part than the 1 left in the scene",
+        lambda: second.platen(0),
+    )
     refused("drive: part = platen at", lambda: second.drive(top, (0.0, -1.0)))
     assert second.platen(2).number == 0
     assert second.platen(0).number == 1
@@ -296,7 +301,7 @@ def test_names_of_columns_are_checked_at_the_call():
     rig.strain_to(1e-8)
     assert np.array_equal(rig.record["force"], rig.record["load"])
     assert np.array_equal(rig.record["opening"], rig.record["cmod"])
-    refused("gauge = 'late', must be one", lambda: rig.gauge("late", (0, 0), (0.01, 0)))
+    refused("gauge = 'late', must be a gauge", lambda: rig.gauge("late", (0, 0), (0.01, 0)))
     refused("record: column = 'axial_stres', unknown", lambda: rig.record["axial_stres"])
     refused(
         "Loading: control = 'cmodd' (did you mean cmod?), must be one of",
@@ -310,10 +315,10 @@ def test_what_is_missing_to_load_a_specimen_is_said_in_one_line():
     rig = PartRig(built(Specimen.rectangle(side, side, THICKNESS)))
     refused("load: driven parts = none, must be at least 1; call drive", rig.load)
     refused("load: driven parts = none, must be at least 1", lambda: rig.strain_to(1e-6))
-    refused("confine: part = None, must be one of the rig; call press", lambda: rig.confine(1e6))
+    refused("confine: part = None, must be a part of the rig; call press", lambda: rig.confine(1e6))
     floor, lid = rig.platen(0, bonded=True), rig.platen(2, bonded=True)
     rig.drive(lid, (0.0, 1.0), against=floor)
-    message = "load: parts that hold the specimen along x = 0, must be at least 1; give a part"
+    message = "load: parts that fix the specimen along x = 0, must be at least 1; give a part"
     for _ in range(2):  # and nothing of it is left
         refused(message, rig.load)
     rig.hold(disc=((side / 2, side / 2), 0.003), axes="x")
@@ -327,7 +332,7 @@ def test_what_is_missing_to_load_a_specimen_is_said_in_one_line():
     rig = PartRig(built())
     wall = rig.platen(3)
     rig.drive(wall, (1.0, 0.0), against=rig.platen(1))
-    refused("load: parts that hold the specimen along y = 0", rig.load)
+    refused("load: parts that fix the specimen along y = 0", rig.load)
 
 
 def test_a_driven_plate_that_only_leaves_the_specimen_is_refused():
@@ -382,7 +387,7 @@ def test_a_watch_that_takes_the_scene_away_ends_in_one_line():
                 rollers, pin = beam(rig)
                 rig.drive(pin, (0.0, -1.0), against=rollers)
             rig.watch = watch
-            refused("watch: scene = step", rig.load, SimulationError)
+            refused("watch: the callback changed the scene", rig.load, SimulationError)
 
 
 def test_rigs_of_two_ends_are_for_rectangles_and_discs():
@@ -417,7 +422,8 @@ def test_a_gauge_whose_grain_is_gone_is_said():
     for number in [one for one, at in places.items() if np.hypot(at[0] - 0.02, at[1]) < 0.004]:
         yade.O.bodies.erase(number)
     assert [line for line in rig.warnings if line.startswith("gauge ")] == [
-        "gauge gone reads a node of a grain that was erased, which stays where it was"
+        "gauge gone reads a node of an erased grain, which no longer moves; rows from there on "
+        "are not valid, place another gauge"
     ]
 
 

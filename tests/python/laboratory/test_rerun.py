@@ -167,11 +167,11 @@ def test_a_specimen_that_is_gone_or_different_is_refused_in_one_line(
 @pytest.mark.parametrize(
     ("content", "why"),
     [
-        ("no table", "is no JSON table"),
+        ("no table", "is not a JSON table"),
         ("{}", "has no inputs"),
         ('{"inputs": {"test": "uniaxial"}}', "has no inputs"),
         ('{"inputs": {"test": "uniaxial", "material": {}}}', "specimen is missing"),
-        ('{"inputs": {"test": "uniaxial", "material": {}, "specimen": 1}}', "fields by name"),
+        ('{"inputs": {"test": "uniaxial", "material": {}, "specimen": 1}}', "must be a table"),
     ],
 )
 def test_a_file_that_is_no_result_is_refused_in_one_line(capsys, tmp_path, content, why):

@@ -122,5 +122,5 @@ def test_a_loading_that_cannot_be_is_refused(rectangle):
     refusal("kind = 'wating', must be one of constant, adaptive", flexpm.Loading, kind="wating")
     for name, value in (("rate", 0.0), ("max_strain", -1.0), ("stop_ratio", float("nan"))):
         refusal(f"Loading: {name} = ", flexpm.Loading, **{name: value})
-    with pytest.raises(InputError, match="kind = waiting, must be another"):
+    with pytest.raises(InputError, match="kind = waiting, must be adaptive or constant"):
         rig_of(rectangle, "jcfpm").load(flexpm.Loading(kind="waiting"))

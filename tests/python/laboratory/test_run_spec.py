@@ -398,7 +398,7 @@ def test_a_test_wants_its_shape():
         ({}, "inputs test is missing"),
         ({"test": "uniaxial", "specimen": {}, "material": {}, "pace": "slow"}, "inputs = 'pace'"),
         ({"test": "uniaxial", "specimen": {"with": 1}, "material": {}}, "did you mean width"),
-        ({"test": "uniaxial", "specimen": 3, "material": {}}, "must be fields by name"),
+        ({"test": "uniaxial", "specimen": 3, "material": {}}, "must be a table; give result.json"),
     ],
 )
 def test_json_that_is_no_run_is_refused_in_one_line(content, message):

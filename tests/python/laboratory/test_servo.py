@@ -130,12 +130,12 @@ def test_what_cannot_be_followed_is_refused_in_one_line(bar):
     for control, message in (
         ("nothing", "Loading: control = 'nothing', must be one of load, opening, closing, way"),
         ("displacement", "Loading: control = 'displacement', must be one of"),
-        ("closing", "control = closing, must be a measure that grows along the loading"),
+        ("closing", "control = closing, must be a measure that increases along the loading"),
     ):
         assert refusal("", rig.load, Loading(kind="waiting", control=control)).startswith(message)
     rig = pulled(bar)
     rig.load(Loading(kind="waiting", control="way", max_strain=1e-5))
-    with pytest.raises(InputError, match="must be that of the first loading of the record, way"):
+    with pytest.raises(InputError, match="must be as in the first loading of the record, way"):
         rig.load(Loading(kind="waiting", control="opening"))
     with pytest.raises(InputError, match="static = True, must be False under control of way"):
         Loading(static=True, control="way")

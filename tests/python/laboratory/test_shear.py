@@ -315,4 +315,4 @@ def test_plates_without_one_for_a_pressure_are_not_pressed():
     material = flexpm.materials.load("augig-table7")
     spec = RunSpec("bending", beam.spec, described(material, "flexible"))
     rig = part_tests.part_rig(fresh(beam, material), spec, None)
-    refusal("confine: part = None, must be one of the rig", rig.confine, 1e6)
+    refusal("confine: part = None, must be a part of the rig", rig.confine, 1e6)

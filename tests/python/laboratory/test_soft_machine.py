@@ -125,7 +125,7 @@ def test_a_machine_is_given_once_and_to_one_plate_along_its_normal(dimension):
         (top, up, -1.0, "drive: machine = -1.0 N/m, must be > 0"),
         (top, up, np.nan, "drive: machine = nan"),
         (top, up, "k", "drive: machine = 'k'"),
-        (both, up, 1e6, "drive: machine: parts = others than one"),
+        (both, up, 1e6, "drive: a machine needs exactly one driven plate"),
         (top, up - side, 1e6, "drive: machine: direction = (0.70"),
     ):
         assert refusal("", rig.drive, parts, way, machine=machine).startswith(message)
@@ -134,7 +134,7 @@ def test_a_machine_is_given_once_and_to_one_plate_along_its_normal(dimension):
     refusal("must be as given before, 1000000", rig.drive, top, up, machine=2e6)
     assert rig.layout["drive"]["machine"] == 1e6
     assert [one.get("machine") for one in rig.parts] == [None, 1e6]
-    refusal("machine = behind a plate that does not load", rig.drive, rig.platen(1), side)
+    refusal("machine is behind a plate that does not load", rig.drive, rig.platen(1), side)
     assert [one["gauge"] for one in rig.gauges] == ["crosshead_displacement", "machine_energy"]
 
 

@@ -132,7 +132,7 @@ def test_a_disc_has_neither_sides_to_press_nor_ends_to_pull(small):
     built = fresh(small)
     refusal("rig: tension = True, must be False for a disc", flexpm.rig, built, tension=True)
     refusal(
-        "confine: pressure = 1e\\+06 Pa, must be left out", lambda: flexpm.rig(built).confine(1e6)
+        "confine: pressure = 1e\\+06 Pa, must not be given", lambda: flexpm.rig(built).confine(1e6)
     )
 
 
@@ -204,7 +204,7 @@ def test_jaws_that_fit_no_disc_are_refused(small):
         flexpm.run("brazilian", small, jaw_radius=100.0)
     plane = Specimen.disc(0.014, 0.008, seed=1)
     with pytest.raises(
-        InputError, match="must be left out for a disc: jaws of a named test .*; lay jaws"
+        InputError, match="must be left out for a disc: jaws of a named test .*; place jaws"
     ):
         flexpm.run("brazilian", plane, jaw_radius=0.0105)
     rig = flexpm.rig(fresh(small, model="rigid"))

@@ -170,28 +170,28 @@ def test_what_is_wrong_is_refused(box):
         (lambda: rig.platen(1, seated=1), "seated = 1, must be"),
         (lambda: rig.support((0.006, 0.006, 0.0), seated=True), "length = None, must be given"),
         (lambda: rig.rotation_of("tilt", top), "must be seated"),
-        (lambda: rig.platen(1, bonded=True, friction=0.2), "must be 0 of one that is bonded"),
+        (lambda: rig.platen(1, bonded=True, friction=0.2), "must be 0 for a bonded plate"),
         (lambda: rig.support((0.0, 0.0)), "position = \\(0.0, 0.0\\), must be x, y and z"),
         (lambda: rig.support((0.006, 0.006, 0.006), 0.003), "off the nearest flat side"),
         (lambda: rig.support((0.006, 0.006, 0.0), -1.0), "length = -1.0 m, must be > 0"),
         (lambda: rig.support((0.006, 0.006, 0.0), bonded=True), "length = None, must be given"),
-        (lambda: rig.support((0.0, 0.006, 0.006), normal=(1, 0, 0)), "must be along z"),
+        (lambda: rig.support((0.0, 0.006, 0.006), normal=(1, 0, 0)), "normal is not along z"),
         (lambda: rig.support((0.0, 0.006, 0.008)), "triangles at x = 0 m, z = 0.008 m = 0"),
-        (lambda: rig.hold(), "region = none or several, must be one of box, ball and where"),
+        (lambda: rig.hold(), "give exactly one of box, ball and where"),
         (lambda: rig.rotate([]), "rotate: parts = none, must be at least 1"),
         (lambda: rig.drive(top, (0, -1)), "must be x, y and z"),
         (lambda: rig.drive(top, (0, 0, 1), against=base) or rig.load(), "pulls without bond"),
-        (lambda: top.width, "width of platen at .* has none in space"),
-        (lambda: rig.platen(2), "lies there already, must be apart"),
-        (lambda: rig.support((0.006, 0.006, 0.0), 0.003), "lies there already, must be apart"),
-        (lambda: rig.support((0.006, 0.006, 0.0)), "lies there already, must be apart"),
+        (lambda: top.width, "width of platen at .* is available in 2D only"),
+        (lambda: rig.platen(2), "overlaps .*choose another position"),
+        (lambda: rig.support((0.006, 0.006, 0.0), 0.003), "overlaps .*choose another position"),
+        (lambda: rig.support((0.006, 0.006, 0.0)), "overlaps .*choose another position"),
     ]
     for call, told in refused:
         refusal(told, call)
     spheres = fresh(box, model="jcfpm")
     refusal("test of model jcfpm = 'own', must be one of", flexpm.SolidPartRig, spheres)
     flat = fresh(flexpm.Specimen.rectangle(SIZE, SIZE, 0.01, seed=1))
-    refusal("must be a solid; flexpm.PartRig", flexpm.SolidPartRig, flat)
+    refusal("must be 3D; use flexpm.PartRig", flexpm.SolidPartRig, flat)
 
 
 @pytest.mark.long
@@ -350,7 +350,7 @@ def test_a_solid_turns_about_an_axis_as_told(box):
         ({"axis": (0, 0, 0)}, "rotate: axis: length of its direction = 0"),
         ({"axis": (0, 1)}, "rotate: axis: direction = .*, must be x, y and z"),
         ({"about": (0, 1)}, "rotate: about = .*, must be x, y and z"),
-        ({"back": held}, "is there twice"),
+        ({"back": held}, "is given twice"),
         ({"area": 0.0}, "rotate: area = 0"),
     ):
         refusal(message, rig.turn, held, **wrong)
@@ -366,8 +366,8 @@ def test_a_moved_set_takes_the_specimen_along(box):
     refusal("along x = 1 m/s, must be 0", held.move, (1.0, 0.0, 0.0))
     with pytest.raises(InputError, match="axes = 'yx', must be some of xyz"):
         rig.hold(box=((0, 0, 0), (1e-3, 1e-3, 1e-3)), axes="yx")
-    refusal("disc = given, must be left out here; give a ball", rig.hold, disc=((0.0, 0.0), 1.0))
-    refusal("is held already", rig.hold, ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.3 * SIZE))
+    refusal("disc = given, must not be given here; give a ball", rig.hold, disc=((0.0, 0.0), 1.0))
+    refusal("is fixed already", rig.hold, ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.3 * SIZE))
 
 
 def test_one_name_of_the_rig_takes_specimens_of_both_dimensions(box):
@@ -375,5 +375,5 @@ def test_one_name_of_the_rig_takes_specimens_of_both_dimensions(box):
     assert type(rig) is flexpm.SolidPartRig
     plane = fresh(flexpm.Specimen.rectangle(0.02, 0.02, 0.01, seed=1), model="rigid")
     assert type(flexpm.PartRig(plane)) is flexpm.PartRig
-    refusal("SolidPartRig: specimen = rectangle, must be a solid", flexpm.SolidPartRig, plane)
+    refusal("SolidPartRig: specimen = rectangle, must be 3D", flexpm.SolidPartRig, plane)
     yade.O.reset()

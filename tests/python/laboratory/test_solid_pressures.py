@@ -62,11 +62,11 @@ def test_a_fluid_on_the_mantle_and_a_plate_press_alike(core, model):
 def test_sides_that_a_fluid_cannot_press_are_refused(core, box):
     rig = rig_of(core)
     refused = (
-        ({"side": 3}, "fluid: side = 3, must be one of 0, 1, 2, those of a cylinder"),
+        ({"side": 3}, "fluid: side = 3, must be one of 0, 1, 2, the sides of a cylinder"),
         ({}, "fluid: side = None, must be given"),
-        ({"side": []}, "fluid: side = none, must be at least 1"),
+        ({"side": []}, "fluid: side = none, must be >= 1"),
         ({"side": 1.5}, "fluid: side = 1.5, must be a whole number"),
-        ({"side": 1, "hole": 0}, "fluid: hole = 0, must be left out for a solid"),
+        ({"side": 1, "hole": 0}, "fluid: hole = 0, must not be given for a 3D specimen"),
     )
     for sides, told in refused:
         refusal(told, rig.fluid, 1e6, **sides)
@@ -82,7 +82,7 @@ def test_a_static_solution_under_pressures_is_where_steps_lead(box, model):
     walls = {side: rig.platen(side) for side in (0, 3, 5)}
     top, right = rig.platen(2), rig.platen(1)
     pressures = {top: 6e6, right: 2e6}
-    refusal("pressures, driven parts = none, must be some", rig.elastic)
+    refusal("nothing loads the specimen", rig.elastic)
     found = rig.elastic(pressures)
     for part, pressure in pressures.items():
         along = np.dot(part.normal, found.force(part))
@@ -99,7 +99,7 @@ def test_a_static_solution_under_pressures_is_where_steps_lead(box, model):
     far = np.abs(found.positions - found.reference).max()
     assert np.abs(driven.positions - found.positions).max() < 1e-6 * far
     assert rig.elastic().force(top) == rig.elastic({right: 0.0}).force(top) == (0.0, 0.0, 0.0)
-    refusal("is driven, must not be", rig.elastic, {top: 1e6})
+    refusal("is driven; leave it out", rig.elastic, {top: 1e6})
     refusal("pressures = 3, must be a table", rig.elastic, 3)
     # a plate without a pressure may move: nothing presses on it
     assert rig.elastic({right: 0.0}, displacement=1e-6).force(right)[0] == pytest.approx(
@@ -125,7 +125,7 @@ def test_strips_are_in_series_with_what_is_between_them(box, strips):
     # what bears more evenly gives a little less
     assert ways[1] - ways[0] == pytest.approx(alone, rel=2e-3)
     assert [part.get("strip") for part in rig.parts] == list(strips)
-    with pytest.raises(InputError, match="must be given for one that is .* or a strip"):
+    with pytest.raises(InputError, match="must be given for a bonded or seated .* or a strip"):
         rig.support((0.5 * SIZE, 0.5 * SIZE, 1.5 * SIZE), strip=1e12)
 
 

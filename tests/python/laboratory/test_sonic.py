@@ -239,7 +239,7 @@ def test_what_no_pulse_has_is_refused(bar):
     with pytest.raises(InputError, match="sides = free, must be held for wave = s"):
         flexpm.run("sonic", bar, wave="s", sides="free")
     refusal("run: sides = 'loose'", flexpm.run, "sonic", bar, sides="loose")
-    refusal("must be False for jcfpm of a box", flexpm.run, "sonic", bar, model="jcfpm")
+    refusal("must be False for jcfpm grains in a box", flexpm.run, "sonic", bar, model="jcfpm")
     refusal("wavelength = .* must be >= 20", flexpm.run, "sonic", Specimen.box(0.009, 0.009, 0.014))
     built = fresh(bar, dynamic=True)
     built.run(3)

@@ -173,7 +173,7 @@ def test_ends_with_friction_hold_a_core_across(core, model, tmp_path, monkeypatc
 
 def test_friction_of_ends_is_refused_where_there_is_none(core):
     plane = Specimen.rectangle(0.012, 0.024, 0.01, seed=1)
-    with pytest.raises(InputError, match="end_friction = 0.2, must be left out for a rectangle"):
+    with pytest.raises(InputError, match="end_friction = 0.2, must not be given for a rectangle"):
         flexpm.run("uniaxial", plane, end_friction=0.2)
     with pytest.raises(InputError, match="end_friction = 0.2, must be left out for model jcfpm"):
         flexpm.run("uniaxial", core, model="jcfpm", end_friction=0.2)
@@ -209,9 +209,9 @@ def test_a_script_roughens_ends_and_its_folder_repeats_them(core, tmp_path):
 
 def test_what_does_not_fit_is_refused_in_one_line(core, box):
     plane = Specimen.rectangle(0.012, 0.024, 0.01, seed=1)
-    with pytest.raises(InputError, match="rectangle, must be a cylinder for triaxial; biaxial is"):
+    with pytest.raises(InputError, match="rectangle, must be a cylinder for triaxial; use biaxial"):
         flexpm.run("triaxial", plane, confinement=1e6)
-    with pytest.raises(InputError, match="must be a rectangle for biaxial; triaxial is"):
+    with pytest.raises(InputError, match="must be a rectangle for biaxial; use triaxial"):
         flexpm.run("biaxial", core, confinement=1e6)
     with pytest.raises(InputError, match="second_confinement = 1e.06 Pa, must be left out for a"):
         flexpm.run("triaxial", core, confinement=1e6, second_confinement=1e6)

@@ -174,13 +174,13 @@ def test_softening_of_a_pair_is_its_own():
         ([{"pair": ["quartz"]}], "must be the names of two minerals"),
         ([{"pair": ["quartz", 3]}], "must be the names of two minerals"),
         ([{"pair": ["quartz", "biotit"]}], "biotit.*did you mean.*biotite"),
-        ([{"pair": ["quartz", "biotite"]}, {"pair": ["biotite", "quartz"]}], "is there twice"),
+        ([{"pair": ["quartz", "biotite"]}, {"pair": ["biotite", "quartz"]}], "is given twice"),
         ([{"pair": ["quartz", "biotite"], "cohesio": 1e6}], "cohesio.*did you mean.*cohesion"),
         ([{"pair": ["quartz", "biotite"], "young": 1e9}], "young"),
         ([{"pair": ["quartz", "biotite"], "cohesion": -1.0}], "interface quartz/biotite cohesion"),
         (
             [{"pair": ["quartz", "biotite"], "cohesion": 1e6, "factor": {"cohesion": 0.5}}],
-            "must not be given beside",
+            "must not be given with factor",
         ),
         ([{"pair": ["quartz", "biotite"], "factor": {"cohesion": 0.0}}], "factor.cohesion = 0"),
         ([{"pair": ["quartz", "biotite"], "factor": {"softening": 2.0}}], "factor.softening"),
@@ -214,7 +214,7 @@ def test_a_factor_of_an_energy_that_brittle_softening_fixes_is_refused():
 
 def test_interfaces_without_minerals_are_refused():
     plain = {key: value for key, value in ROCK.items() if key != "mineral"}
-    with pytest.raises(InputError, match="needs a material with"):
+    with pytest.raises(InputError, match="the material has no minerals"):
         Material.from_dict({**plain, "interface": [{"pair": ["a", "b"], "cohesion": 1e6}]})
 
 

@@ -49,5 +49,5 @@ def test_what_solids_do_not_have_is_refused(box):
         flexpm.elastic(box, model="inner")
     with pytest.raises(InputError, match="specimen = solid-disc, must be a box or a cylinder"):
         flexpm.elastic(Specimen.solid_disc(0.012, 0.008))
-    refusal("points, mesh = 1, refined, must be left out", flexpm.elastic, box, points=1)
-    refusal("build: points, mesh = 1, refined, must be left out", flexpm.build, box, points=1)
+    refusal("points, mesh = 1, refined, must not be given", flexpm.elastic, box, points=1)
+    refusal("build: points, mesh = 1, refined, must not be given", flexpm.build, box, points=1)

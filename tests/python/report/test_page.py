@@ -443,6 +443,6 @@ def test_a_page_says_how_far_its_numbers_are_those_of_the_rock(ended):
     confined = dataclasses.replace(result, confinement=4e6, model="rigid", youngs_modulus=2e10)
     confined.material = {**result.material, "joints": [{"name": "a"}]}
     assert page_run._reading(confined).split(". ")[1:] == [
-        "Under a confinement read the peak: what comes after it depends on the loading, too",
-        "Young's modulus is that of the middle half, with the joints in it (D21).",
+        "Under a confining pressure read the peak: the curve after it also depends on the loading",
+        "Young's modulus is measured in the middle half, with its joints (D21).",
     ]

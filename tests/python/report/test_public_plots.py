@@ -75,7 +75,7 @@ def test_what_cannot_be_drawn_is_refused_in_one_line(name):
     draw = getattr(flexpm.plot, name)
     refusal("must be a state", draw, {"positions": 0})
     lost = dataclasses.replace(wall(), positions=np.full((60, 2), np.nan))
-    refusal("none that can be drawn", draw, lost)
+    refusal("are not finite", draw, lost)
 
 
 def test_components_are_named_and_old_names_stay():

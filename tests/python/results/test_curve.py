@@ -39,4 +39,4 @@ def test_a_record_becomes_a_table_of_pandas():
 
 def test_without_pandas_a_record_says_so_in_one_line(monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
-    refusal("pandas = not installed, must be; install", lambda: Curve().to_pandas())
+    refusal("pandas is not installed; install", lambda: Curve().to_pandas())

@@ -135,7 +135,7 @@ def test_events_read_back_unchanged(tmp_path):
     assert first == events[0]
     assert second[:-1] == events[1][:-1]
     (tmp_path / "events.csv").write_text("step,strain\n1,2\n")
-    refusal("holds no events", read_events, tmp_path / "events.csv")
+    refusal("is not a table of events", read_events, tmp_path / "events.csv")
 
 
 def test_cracks_of_an_older_version_have_no_energy(tmp_path):

@@ -126,7 +126,7 @@ def test_principal_stresses_are_the_eigenvalues(stress):
 
 def test_what_is_no_snapshot_is_refused_in_one_line(tmp_path):
     for path, state in ((wall(), tmp_path / "it.vtu"), (tmp_path / "it.vtu", {"positions": []})):
-        refusal("snapshot = .*, behind the name", write_vtu, path, state)
+        refusal("snapshot = .*, must be a snapshot", write_vtu, path, state)
     assert not list(tmp_path.iterdir())
 
 

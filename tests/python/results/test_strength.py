@@ -88,7 +88,7 @@ def test_two_peaks_give_a_criterion_without_errors():
     [
         ([0.0], [1e8], "at least two different"),
         ([4e6, 4e6], [1e8, 1.1e8], "at least two different"),
-        ([0.0, 4e6], [1e8], "one for each"),
+        ([0.0, 4e6], [1e8], "one per confining pressure, 2"),
         ([0.0, -4e6], [1e8, 1e8], "confinements = -4000000.0 Pa"),
         ([0.0, 4e6], [1e8, math.nan], "peaks = nan Pa"),
         ([0.0, 4e6], [1e8, 0.9e8], "check the peaks"),

@@ -190,13 +190,13 @@ def test_figures_of_the_image_itself():
 
 
 WRONG = [
-    (np.zeros((4, 4), int), {}, "one region"),
+    (np.zeros((4, 4), int), {}, "labels = 1 region"),
     (np.zeros(4, int), {}, "must be rows of whole numbers"),
     (np.full((4, 4), 0.5), {}, "labels = 0.5 at row 0, column 0, must be whole numbers"),
     (np.full((4, 4), np.nan), {}, "labels = nan"),
     (np.array([["a", "b"], ["c", "d"]]), {}, "must be rows of whole numbers"),
-    (np.eye(8, dtype=int), {"minerals": {0: None, 1: None}}, "all hole"),
-    (np.eye(8, dtype=int), {"minerals": {0: 0}}, "minerals of label 1 are missing, which 8 pixels"),
+    (np.eye(8, dtype=int), {"minerals": {0: None, 1: None}}, "all labels are holes"),
+    (np.eye(8, dtype=int), {"minerals": {0: 0}}, "minerals of label 1 are missing: 8 pixels"),
     (np.eye(8, dtype=int), {"minerals": {0: 0, 1: -1}}, r"minerals\[1\] = -1"),
     (np.eye(8, dtype=int), {"minerals": 3}, "minerals = 3, must be indices by label"),
     (np.eye(8, dtype=int), {"smallest": 0}, "smallest = 0"),
@@ -273,7 +273,10 @@ def test_a_material_has_the_minerals_of_an_image_in_their_order(tmp_path):
     flexpm.elastic(specimen, rock)
     turned = {**rock, "mineral": rock["mineral"][::-1]}
     refusal(
-        "mineral 1 = quartz, is number 2 of .* order quartz, mica", flexpm.elastic, specimen, turned
+        "mineral 1 = quartz, is mineral 2 of .* order quartz, mica",
+        flexpm.elastic,
+        specimen,
+        turned,
     )
     flexpm.elastic(specimen.with_minerals(specimen.minerals), turned)  # of no names
     for other in ("feldspar", "Quartz-new"):  # what the material does not have is told by its place
@@ -317,7 +320,7 @@ def test_images_that_cannot_be_read_are_refused_in_one_line(tmp_path, capfd):
     (tmp_path / "none.png").write_bytes(b"no image")
     for file, words in {
         "colours.png": "image colour = #0000ff of 32 pixels, one at row 6, column 8, is missing",
-        "pages.tif": "image = 2 pages, must be one: volumes are not read, Neper's .tess is",
+        "pages.tif": "image = 2 pages, must be 1: volumes are not read, Neper's .tess is",
         "volume.npy": "array of shape (3, 5, 5), must be rows of one image: volumes are not read",
         "jpeg.tif": "must be a PNG, TIFF, NPY or TESR file: JPEGLib: ",
         "zip.tif": "must be a PNG, TIFF, NPY or TESR file: ZIPDecode: ",

@@ -221,7 +221,7 @@ def test_rigid_cells_are_compressed(tmp_path):
 def test_spheres_of_other_models_are_refused(tmp_path):
     (tmp_path / "a.tess").write_text(tess_text(*bricks((2, 2, 2))))
     made = Specimen.from_tess_solid(tmp_path / "a.tess", scale=0.02)
-    with pytest.raises(InputError, match="must be one of cells for a specimen of given cells"):
+    with pytest.raises(InputError, match="must be flexible or rigid for user-supplied cells"):
         flexpm.run("uniaxial", made, model="jcfpm", out=tmp_path / "run")
 
 
@@ -263,7 +263,10 @@ BROKEN = {
         "vertex 11: y = 'nan', must be a number",
     ),
     "many": (GOOD.replace("**cell\n  4", "**cell\n  200000"), "cells = '200000', must be"),
-    "twice": (with_cells([*CELLS[0], CELLS[0][0]]), "polyhedron 1: face = 1, must be one of two"),
+    "twice": (
+        with_cells([*CELLS[0], CELLS[0][0]]),
+        "polyhedron 1: face = 1, must belong to one or two polyhedra",
+    ),
     "thrice": (with_cells([*CELLS[0], 3]), "line 156: polyhedron 1: face = 3, must be"),
     "empty": (with_cells([]), "polyhedron 1: faces = 0, is an empty cell; leave out its seed"),
     "open": (with_cells(CELLS[0][1:]), "polyhedra = 0, must be 1 or 2"),
@@ -293,4 +296,4 @@ def test_the_command_writes_figures_and_the_solid(tmp_path, capsys):
     assert Specimen.load_solid(tmp_path / "out/solid.json").spec.cells is not None
     capsys.readouterr()
     assert cli.main([*given, "--thickness", "0.1", "--out", str(tmp_path / "out")]) == 2
-    assert "thickness = 0.1 m, must not be given for cells in space" in capsys.readouterr().err
+    assert "thickness = 0.1 m, must not be given for 3D cells" in capsys.readouterr().err

@@ -144,5 +144,7 @@ def test_outlines_that_cannot_be(corners, holes, message):
 
 @pytest.mark.parametrize("model", ["jcfpm", "cohfrict"])
 def test_spheres_have_no_sawn_grains(model):
-    with pytest.raises(InputError, match=f"model = {model}, must be one of cells .* sawn grains"):
+    with pytest.raises(
+        InputError, match=f"model = {model}, must be flexible or rigid .* sawn grains"
+    ):
         flexpm.run("uniaxial", Specimen.polygon(SQUARE, 0.08), model=model)

@@ -281,7 +281,7 @@ def test_a_hole_is_meant_or_refused():
             r"= 2, must be 1; polygon 3 at \(0.003, 0\) m does not reach polygon 0 at \(0, 0\) m",
         ),
         ([*BRICKS, BRICKS[1]], "must not overlap polygon 1"),
-        ([BRICKS[0], [(0, 1.1), (2, 1.1), (2, 2), (0, 2)]], "parts that hang together = 2"),
+        ([BRICKS[0], [(0, 1.1), (2, 1.1), (2, 2), (0, 2)]], "connected parts = 2"),
         (
             [BRICKS[0], [(0, 1), (1, 1.1), (2, 1), (2, 2), (0, 2)]],
             "polygons: gap at|must not meet itself",
@@ -298,7 +298,10 @@ def test_polygons_that_are_no_tiling(polygons, message):
 
 def test_spheres_have_no_given_cells():
     specimen = Specimen.from_polygons(scaled(BRICKS), 0.01)
-    with pytest.raises(InputError, match="model = jcfpm, must be one of cells .* given cells"):
+    with pytest.raises(
+        InputError,
+        match="model = jcfpm, must be flexible or rigid .* given cells",
+    ):
         flexpm.build(specimen, model="jcfpm")
 
 
@@ -345,11 +348,11 @@ def test_a_changed_file_is_refused(tmp_path):
     file = tmp_path / "specimen.json"
     Specimen.from_polygons(scaled(BRICKS), 0.01).save(file)
     file.write_text(file.read_text().replace("0.002", "0.003"))
-    refusal("was changed since it was saved", Specimen.load, file)
+    refusal("was changed after it was saved", Specimen.load, file)
     file.write_text("{}")
-    refusal("is no specimen of this flexpm", Specimen.load, file)
+    refusal("is not a specimen file of this version", Specimen.load, file)
     file.write_text("{")
-    refusal("is no JSON table", Specimen.load, file)
+    refusal("is not a JSON table", Specimen.load, file)
     refusal("cannot be read", Specimen.load, tmp_path / "none.json")
 
 

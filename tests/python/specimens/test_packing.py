@@ -284,7 +284,7 @@ def test_a_packing_in_a_running_simulation_is_refused():
 
 
 def test_discs_that_cannot_be_inserted_are_refused():
-    with pytest.raises((InputError, ValueError), match="free place"):
+    with pytest.raises((InputError, ValueError), match="must fit into the outline"):
         packing.pack(packing.Frame(width=0.004, height=0.004), radii_of(40), UNIT, 1)
 
 

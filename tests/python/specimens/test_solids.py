@@ -67,7 +67,7 @@ def test_a_seed_gives_the_same_bits(box):
     ],
 )
 def test_holes_are_of_the_plane(name, sizes):
-    with pytest.raises(InputError, match=r"^Specimen[^\n]*holes = [^\n]* of the plane[^\n]*$"):
+    with pytest.raises(InputError, match=r"^Specimen[^\n]*holes = [^\n]* available in 2D[^\n]*$"):
         getattr(Specimen, name)(*sizes, holes=[[(0.004, 0.004), (0.006, 0.004), (0.005, 0.006)]])
 
 
@@ -79,8 +79,8 @@ def test_a_file_reads_back_to_the_same_bits(cylinder, tmp_path):
     assert np.array_equal(again.cells.vertices, cylinder.cells.vertices)
     text = (tmp_path / "solid.json").read_text()
     (tmp_path / "changed.json").write_text(text.replace('"seed": 1', '"seed": 2'))
-    refusal("was changed since it was saved", Specimen.load_solid, tmp_path / "changed.json")
-    with pytest.raises(InputError, match=r"is a solid, must be plane; .*Specimen.load_solid"):
+    refusal("was changed after it was saved", Specimen.load_solid, tmp_path / "changed.json")
+    with pytest.raises(InputError, match=r"is 3D, must be 2D; .*Specimen.load_solid"):
         Specimen.load(tmp_path / "solid.json")
 
 
@@ -162,12 +162,12 @@ def test_a_solid_has_each_method_of_a_2d_specimen(box):
 @pytest.mark.parametrize(
     ("use", "message"),
     [
-        (lambda solid: flexpm.run("biaxial", solid), "rectangle for biaxial; triaxial"),
+        (lambda solid: flexpm.run("biaxial", solid), "rectangle for biaxial; use triaxial"),
         (lambda solid: flexpm.run("brazilian", solid), "must be a disc for brazilian"),
         (lambda solid: flexpm.compare("scb", solid), "must be a half-disc for scb"),
         (lambda solid: flexpm.run("uniaxial", solid, model="inner"), "one of flexible, rigid"),
         (lambda solid: flexpm.run("uniaxial", solid, points=1), "points = 1, must be left out"),
-        (lambda solid: flexpm.build(solid, mesh="fan"), "must be left out for a solid"),
+        (lambda solid: flexpm.build(solid, mesh="fan"), "must not be given for a 3D specimen"),
         (lambda solid: flexpm.build(solid, model="inner"), "one of flexible, rigid"),
         (lambda solid: solid.with_joints({"a": [(0, 0), (1, 1)]}), "with_joints: specimen = box"),
         (
@@ -245,14 +245,14 @@ def test_the_command_refuses_in_one_line(box, tmp_path, capsys):
         ("uniaxial --shape box --joints a.csv", "joints = a.csv, must not be given for a box"),
         ("uniaxial --shape box --notch 0.01", "must not be given for uniaxial"),
         ("uniaxial --shape box --model inner", "must be one of flexible, rigid"),
-        ("uniaxial --shape box --model jcfpm --dynamic", "must be False for jcfpm of a box"),
+        ("uniaxial --shape box --model jcfpm --dynamic", "must be False for jcfpm grains in a box"),
         ("uniaxial --shape box --confinement 1e6", "must be 0 for uniaxial; use triaxial"),
-        ("biaxial --shape cylinder --confinement 1e6", "triaxial is the test of solids"),
+        ("biaxial --shape cylinder --confinement 1e6", "use triaxial for 3D specimens"),
         ("triaxial --width 0.02", "must not be given for a cylinder"),
         ("triaxial --confinement 1e6,2e6", "second_confinement = 2e+06 Pa, must be left out for a"),
-        ("triaxial --confinement 1e6,2e6,3e6", "must be one pressure or two: P,P"),
+        ("triaxial --confinement 1e6,2e6,3e6", "must be one or two pressures; write P or P,P"),
         ("triaxial --confinement -1", "confinement = -1 Pa, must be >= 0"),
-        ("triaxial --shape box --confinement 1,2 --second-confinement 3", "left out beside"),
+        ("triaxial --shape box --confinement 1,2 --second-confinement 3", "leave out one of them"),
         ("triaxial --shape box --second-confinement -3", "must be >= 0"),
         ("uniaxial --second-confinement 3", "second_confinement = 3.0 Pa, must not be given for"),
         ("uniaxial --shape cylinder --diameter 5 --height 10", "GB of memory, must be at most"),
@@ -269,4 +269,4 @@ def test_a_plane_file_is_no_box(tmp_path, capsys):
     Specimen.rectangle(0.012, 0.016, 0.01, seed=1).save(tmp_path / "plane.json")
     asked = ["run", "uniaxial", "--shape", "box", "--specimen", str(tmp_path / "plane.json")]
     assert main([*asked, "--out", str(tmp_path / "out")]) == 2
-    assert "is a rectangle, must be a box as shape says" in capsys.readouterr().err
+    assert "is a rectangle, must be a box as in shape" in capsys.readouterr().err

@@ -89,7 +89,7 @@ def test_strengths_are_saved(specimen, tmp_path):
 def test_factors_that_cannot_be(specimen, factors):
     if isinstance(factors, list) and factors != [1.0]:
         factors = factors * contacts(specimen)
-    refusal("must be .* numbers above 0, one for each contact", specimen.with_strengths, factors)
+    refusal("must be .* numbers > 0; give one per contact", specimen.with_strengths, factors)
 
 
 def test_other_refusals(specimen):

@@ -111,7 +111,7 @@ def test_keys_that_do_not_go_together_do_not_end_a_calibration(tmp_path):
 
     found = flexpm.calibrate(measure, free, wanted, tmp_path / "out", evaluations=30)
     lost = [one.lost["pull"] for one in found.history if one.lost]
-    assert lost and all(text.startswith("refused: material tensile_fracture") for text in lost)
+    assert lost and all(text.startswith("rejected: material tensile_fracture") for text in lost)
     assert (tmp_path / "out" / "report.html").is_file()
 
 

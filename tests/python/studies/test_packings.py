@@ -57,10 +57,10 @@ def test_seeds_are_numbers_and_ranges_in_the_order_given(text, seeds):
         ("-3", "must be whole numbers"),
         ("1,,2", "must be whole numbers"),
         ("1.5", "must be whole numbers"),
-        ("5-1", "must go upwards; 5-1 does not"),
+        ("5-1", "must have increasing ranges; write 1-5"),
         ("1-3,2", "must name 2 once"),
-        ("1-1001", "must be at most 1000 packings, not 1001"),
-        ("0-999999999,7", "must be at most 1000 packings"),
+        ("1-1001", "must be <= 1000 seeds, not 1001"),
+        ("0-999999999,7", "must be <= 1000 seeds"),
     ],
 )
 def test_wrong_seeds_are_refused(text, message):
@@ -101,7 +101,9 @@ def test_a_run_that_failed_is_named_and_in_no_mean(short, capsys):
     assert cli.main(["run", "uniaxial", *SHORT, "--seeds", "1-2", "--out", str(folder)]) == 3
     assert before == {file: file.stat().st_mtime_ns for file in folder.glob("seed-*/*")}
     said = capsys.readouterr()
-    assert said.err.startswith("flexpm: runs = seed-1, 1 of 2 failed, in no mean; status = no_peak")
+    assert said.err.startswith(
+        "flexpm: runs = seed-1, 1 of 2 failed and are not part of the means; status = no_peak"
+    )
     assert said.err.count("\n") == 1
     lines = [line.split() for line in said.out.splitlines()]
     assert ["seed", "1"] in [line[:2] for line in lines] and lines[2][-1] == "no_peak"
@@ -119,12 +121,12 @@ def test_each_run_is_the_single_run(short, tmp_path):
 def test_a_folder_with_runs_of_other_inputs_is_refused(short, tmp_path, capsys):
     other = ["run", "uniaxial", *SMALL, "--max-strain", "1e-4"]
     assert cli.main([*other, "--seeds", "2-3", "--out", str(short[1])]) == 2
-    assert "seed-2, holds a run of other inputs; take another folder" in capsys.readouterr().err
+    assert "seed-2, has a run with other inputs; choose another folder" in capsys.readouterr().err
     # a single run that has left its checkpoint
     assert cli.main([*other, "--seed", "5", "--out", str(tmp_path / "seed-5")]) == 3
     faster = [*other, "--rate", "9", "--seeds", "5", "--out", str(tmp_path)]
     capsys.readouterr()
-    refused_command(capsys, "seed-5, holds a run of other inputs", *faster)
+    refused_command(capsys, "seed-5, has a run with other inputs", *faster)
     assert cli.main([*faster, "--discard-checkpoint"]) == 3
     assert result_of(tmp_path / "seed-5")["inputs"]["rate"] == 9.0
 

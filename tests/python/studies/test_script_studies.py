@@ -189,7 +189,7 @@ def test_wrong_studies_are_refused(tmp_path, grid, more, told):
 def test_scripts_that_are_none_are_refused(tmp_path):
     file = laid(tmp_path, "rate = [1.0]")
     (tmp_path / "beam.py").write_text("def (\n")
-    refusal("is no Python script", study.read, file)
+    refusal("is not a Python script", study.read, file)
     (tmp_path / "beam.py").unlink()
     refusal("cannot be read", study.read, file)
     file.write_text('[study]\nlimit = 3.0\n[common]\ntest = "tension"\n')

@@ -41,7 +41,7 @@ void use_instruction_set(InstructionSet set)
 {
     if (set > widest()) {
         refuse("instruction set", name_of(set),
-            std::string("this machine has none beyond ") + name_of(widest()) + "; use that");
+            std::string("this machine has at most ") + name_of(widest()) + "; use that");
     }
     detail::in_use = set;
 }

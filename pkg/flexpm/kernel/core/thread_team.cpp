@@ -21,14 +21,14 @@ constexpr int looks = 2000;
 
 ThreadTeam::ThreadTeam(int size) : members(size)
 {
-    if (size < 1) refuse("threads", size, "", "must be at least 1");
+    if (size < 1) refuse("threads", size, "", "must be >= 1; give a larger number");
     try {
         for (int thread = 1; thread < size; ++thread)
             threads.emplace_back(&ThreadTeam::serve, this, thread);
     } catch (const std::system_error&) {
         members = static_cast<int>(threads.size()) + 1;
         end();
-        refuse("threads", size, "", "are more than the system has left; take fewer");
+        refuse("threads", size, "", "are more than the system has left; use fewer");
     }
 }
 

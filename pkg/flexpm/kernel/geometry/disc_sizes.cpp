@@ -46,8 +46,7 @@ int disc_count(double area, double d_min, double d_max, double porosity)
 std::vector<double> disc_radii(int count, double d_min, double d_max, std::uint64_t seed)
 {
     check_diameters(d_min, d_max);
-    if (count < 1)
-        refuse("disc_radii: count", count, "", "must be >= 1; ask for at least one disc");
+    if (count < 1) refuse("disc_radii: count", count, "", "must be >= 1; give at least one disc");
     Random random(seed);
     std::vector<double> radii(count);
     for (double& r : radii)

@@ -92,7 +92,8 @@ std::vector<Point> insert_discs(
         do {
             if (++tries > most_tries) {
                 refuse("insert_discs: radius", radii[i], "m",
-                    "must find a free place in the outline; choose smaller or fewer discs");
+                    "must fit into the outline beside the other discs; choose smaller or fewer "
+                    "discs");
             }
             d.centre.x = box.low.x + (box.high.x - box.low.x) * random.next();
             d.centre.y = box.low.y + (box.high.y - box.low.y) * random.next();

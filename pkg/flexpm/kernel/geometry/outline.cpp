@@ -91,8 +91,8 @@ Outline Outline::polygon(std::vector<Point> corners)
         turn += std::atan2(cross(u, v), dot(u, v));
     }
     if (turn > 7.0) {
-        refuse("outline: turn of the polygon", turn, "rad",
-            "must be one round of 2 pi; correct the order of its corners");
+        refuse("outline: rotation along the polygon", turn, "rad",
+            "must be 2 pi; correct the order of its corners");
     }
     Outline outline;
     outline.corners = std::move(corners);

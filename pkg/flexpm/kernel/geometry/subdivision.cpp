@@ -283,7 +283,7 @@ InnerCells make_inner_cells(const Tessellation& grains, double mean_count)
 {
     check_finite("inner particles in a grain", mean_count, "");
     if (!(mean_count >= 1.0 && mean_count <= 1000.0)) {
-        refuse("inner particles in a grain", mean_count, "", "must be between 1 and 1000");
+        refuse("inner particles in a grain", mean_count, "", "must be 1 to 1000; correct it");
     }
     double area = 0.0;
     for (int g = 0; g < grains.cells(); ++g)

@@ -13,13 +13,13 @@ namespace {
 /// A limit may be infinite: it is then never reached.
 void check_limit(const char* quantity, double value, const char* unit)
 {
-    if (std::isnan(value)) refuse(quantity, value, unit, "must be a number");
+    if (std::isnan(value)) refuse(quantity, value, unit, "must be a number; correct it");
 }
 
 void check(const TestEnd& end)
 {
     if (!(end.stop_ratio >= 0.0 && end.stop_ratio <= 1.0)) {
-        refuse("stop ratio", end.stop_ratio, "", "must be from 0 to 1");
+        refuse("stop ratio", end.stop_ratio, "", "must be 0 to 1; correct it");
     }
     check_limit("least peak", end.least_peak, "Pa");
     check_limit("least strain", end.least_strain, "");

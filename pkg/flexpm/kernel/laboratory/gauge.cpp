@@ -39,7 +39,8 @@ int nearest_node(const Grains& grains, Vector place, Vector other)
         }
     }
     if (nearest < 0)
-        refuse("grains near a gauge's point", 0.0, "", "must be at least 1 on its side");
+        refuse("grains near a gauge's point", 0.0, "",
+            "must be >= 1 on its side; move the point onto the specimen");
     return nearest;
 }
 
@@ -54,7 +55,7 @@ Vector way_of(const Grains& grains, const Array<double>& moved, int node)
 const Plate& plate_of(const BondedState& s, int plate)
 {
     if (plate < 0 || plate >= static_cast<int>(s.plates.size()))
-        refuse("plate of a gauge", plate, "", "must be the number of a plate; add one first");
+        refuse("plate of a gauge", plate, "", "must be the index of a plate; add one first");
     return s.plates[plate];
 }
 

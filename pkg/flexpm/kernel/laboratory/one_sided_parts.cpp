@@ -86,7 +86,8 @@ SolidPartSolution linear_solution(
     if (!asked.load && asked.way == 0.0 && found.way == 0.0) return found;
     SolidPartState moved = elastic_part_state(s, parts, dt);
     if (asked.load && !(std::fabs(moved.load) > 0.0))
-        refuse("load", *asked.load, "N", "must be left out: nothing resists it");
+        refuse("load", *asked.load, "N",
+            "must not be given: nothing resists it; fix a part that resists it");
     const double factor =
         asked.load ? (*asked.load - found.load) / moved.load : (asked.way - found.way) / moved.way;
     found.way += factor * moved.way;
@@ -166,8 +167,8 @@ SolidPartSolution find_elastic_state(
         open = std::move(next);
     }
     fail("find_elastic_state: solutions", number(most_plain_solutions),
-        "must be fewer until points of plates stay open or closed; bond the plates that hold the "
-        "specimen, or lay them without friction");
+        "must suffice until no plate contact opens or closes; bond the plates that fix the "
+        "specimen, or place them without friction");
 }
 
 }  // namespace flexpm

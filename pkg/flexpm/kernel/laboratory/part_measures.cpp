@@ -206,13 +206,13 @@ void require_held(const Assembly& a)
     RigidStiffness k = rigid_stiffness(a);
     auto& m = k.value;
     const double largest = std::max({ m[0][0], m[1][1], m[2][2] });
-    const char* const motions[] = { "along x", "along y", "against turning" };
-    const char* const remedies[] = { "give a part friction or a pin, or hold nodes (axes x)",
-        "lay a part there, or hold nodes (axes y)",
-        "lay another part apart from the first, give a jaw friction, or hold nodes" };
+    const char* const motions[] = { "along x", "along y", "against rotation" };
+    const char* const remedies[] = { "give a part friction or a pin, or fix nodes (axes x)",
+        "add a part there, or fix nodes (axes y)",
+        "add another part apart from the first, give a jaw friction, or fix nodes" };
     for (int i = 0; i < 3; ++i) {
         if (!(m[i][i] > no_stiffness * largest))
-            refuse(std::string("parts that hold the specimen ") + motions[i], 0.0, "",
+            refuse(std::string("parts that fix the specimen ") + motions[i], 0.0, "",
                 std::string("must be at least 1; ") + remedies[i]);
         for (int j = i + 1; j < 3; ++j) {
             const double factor = m[j][i] / m[i][i];
@@ -253,13 +253,13 @@ void check_parts(const BondedState& s, const PartGeometry& parts)
     for (const auto& plates : { parts.driven, parts.holding }) {
         for (int p : plates) {
             if (p >= 0 && p < static_cast<int>(s.plates.size())) continue;
-            refuse("part", p, "", "must be the number of a plate; add one first");
+            refuse("part", p, "", "must be the index of a plate; add one first");
         }
     }
     for (const auto& sets : { parts.driven_sets, parts.back_sets, parts.holding_sets }) {
         for (int n : sets) {
             if (n >= 0 && n < static_cast<int>(s.node_sets.size())) continue;
-            refuse("part", n, "", "must be the number of a node set; add one first");
+            refuse("part", n, "", "must be the index of a node set; add one first");
         }
     }
 }
@@ -356,7 +356,8 @@ TestScales part_scales(const Assembly& a, const PartGeometry& parts, double stre
     // what moves with them as one feels round-off alone
     if (!(stiffness > no_resistance * springs_of(moved, parts))) {
         refuse("stiffness that the driven parts feel", 0.0, "N/m",
-            "must be > 0; hold against them what is not cut off from them");
+            "must be > 0: nothing resists them; fix a part that is connected to them, e.g. with "
+            "hold()");
     }
     const double softening = strength == 0.0 ? elastic_time(moved, solution) : 0.0;
     return scales_of_parts(a.grains, parts, { mass, stiffness, softening }, strength,

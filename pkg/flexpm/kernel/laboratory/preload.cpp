@@ -78,7 +78,7 @@ void need_ends_alone(const SolidState& s)
     const auto parts = s.node_sets.size() + s.held_faces.size()
         + static_cast<std::size_t>(std::count_if(s.plates.begin(), s.plates.end(), loaded));
     if (parts > 0) {
-        refuse("parts that are free to move or hold grains", static_cast<double>(parts), "",
+        refuse("parts that are free to move or fix grains", static_cast<double>(parts), "",
             "must be 0 for a preload; leave it out");
     }
 }

@@ -94,7 +94,7 @@ Plate plate_along(const SolidState& s, SolidSide side, const BearingLine& line)
     if (found.empty()) {
         refuse("add_line_plate: triangles at x = " + number(line.x) + " m, z = " + number(line.z)
                 + " m",
-            0.0, "", "must be above 0; lay it on the specimen");
+            0.0, "", "must be > 0; place it on the specimen");
     }
     double nearest = std::numeric_limits<double>::infinity();
     for (const Crossing& one : found)

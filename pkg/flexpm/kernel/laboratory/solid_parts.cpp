@@ -185,7 +185,8 @@ TestScales solid_part_scales(
     const double stiffness = moved.load / moved.way, softening = moved.softening;
     if (!(stiffness > 0.0)) {
         refuse("stiffness that the driven parts feel", stiffness, "N/m",
-            "must be > 0; hold against them what is not cut off from them");
+            "must be > 0: nothing resists them; fix a part that is connected to them, e.g. with "
+            "hold()");
     }
     const double mass = 2.0 * kinetic_of_velocities(moved.state);
     const double width = std::sqrt(parts.area);

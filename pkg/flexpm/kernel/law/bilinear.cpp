@@ -37,7 +37,8 @@ void check_dilation(const ContactMaterial& m)
     check_not_negative("dilation", m.dilation, "");
     check_not_negative("dilation_slip", m.dilation_slip, "m");
     if (m.dilation <= m.friction * (1.0 + angle_tolerance)) return;
-    refuse("dilation", m.dilation, "", "must not exceed the friction " + number(m.friction));
+    refuse("dilation", m.dilation, "",
+        "must be <= the friction " + number(m.friction) + "; give a smaller dilation");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ PlaneStiffness plane_stiffness(const ElasticMaterial& m)
 {
     check_positive("young", m.young, "Pa");
     if (!(m.poisson > 0.0 && m.poisson < 0.5)) {
-        refuse("poisson", m.poisson, "", "must lie between 0 and 0.5");
+        refuse("poisson", m.poisson, "", "must lie between 0 and 0.5; correct it");
     }
     check_positive("density", m.density, "kg/m^3");
     const double shear = 0.5 * m.young / (1.0 + m.poisson);

@@ -42,7 +42,7 @@ void need_apart(const Station& low, const Station& high)
     const double height = apart(low, high);
     if (height > 0.0) return;
     refuse("height between strain gauges", height, "m",
-        "must be above 0, but both are the same grains; use smaller ones");
+        "must be > 0: both gauges are on the same grains; use smaller grains");
 }
 
 }  // namespace flexpm

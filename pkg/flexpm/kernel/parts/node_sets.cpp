@@ -20,7 +20,7 @@ namespace {
 NodeSet& set_at(BondedState& state, int set)
 {
     if (set < 0 || set >= static_cast<int>(state.node_sets.size()))
-        refuse("node set", set, "", "must be the number of a set; add one first");
+        refuse("node set", set, "", "must be the index of a set; add one first");
     return state.node_sets[set];
 }
 
@@ -214,7 +214,7 @@ void require_apart(const State& state, const NodeSet& set, const Plate& plate)
         const int facet = plate.points[i].facet;
         if (!lies_down(plate, i) || !lies_on(state, set, facet)) continue;
         refuse("node of a set", bonded_place(state.grains, corners_of(state, facet)[0]),
-            "lies on a plate, must not; take another region or another place");
+            "lies on a plate, must not; use another region or move the plate");
     }
 }
 
@@ -234,9 +234,9 @@ template <class State>
 int add_node_set(State& state, const std::vector<int>& nodes, std::array<bool, 3> axes)
 {
     Grains& grains = state.grains;
-    if (nodes.empty())
-        refuse("nodes of a set", 0.0, "", "must be at least 1; take a larger region");
-    if (!(axes[0] || axes[1] || axes[2])) refuse("axes of a set", 0.0, "", "must be at least 1");
+    if (nodes.empty()) refuse("nodes of a set", 0.0, "", "must be >= 1; use a larger region");
+    if (!(axes[0] || axes[1] || axes[2]))
+        refuse("axes of a set", 0.0, "", "must be >= 1; give an axis");
     const std::vector<int> there = holdable_nodes(state);
     NodeSet set;
     set.holds_x = axes[0];
@@ -248,7 +248,7 @@ int add_node_set(State& state, const std::vector<int>& nodes, std::array<bool, 3
         for (int axis = 0; axis < grains.layout.dimension; ++axis) {
             if (!set.holds(axis) || !grains.prescribed[grains.component(n, axis)]) continue;
             refuse("node of a set", bonded_place(grains, n),
-                "is held already, must not be; take a region apart from that of other parts");
+                "is fixed already; use a region that does not overlap other parts");
         }
         set.nodes.push_back(n);
         set.grains.push_back(grain_node(grains, n).grain);

@@ -82,16 +82,17 @@ void require_on_outline(
     }
     if (!(off <= off_outline * length)) {
         refuse("place of a support", place(patch.place),
-            "is " + number(off) + " m off the outline, must lie on it");
+            "is " + number(off) + " m off the outline; move it onto the outline");
     }
     const double half = 0.5 * patch.length * (1.0 - 1e-9);
     if (first > -half && last < half) {
         refuse("length of a support", patch.length, "m",
-            "must be <= " + number(last - first) + " m, which its side has");
+            "must be <= " + number(last - first)
+                + " m, the length of its side; give a shorter one");
     }
     if (!(p.width >= half)) {
         refuse("length of a support", patch.length, "m",
-            "has " + number(p.width) + " m on the outline, must have half of it; move its place");
+            "has " + number(p.width) + " m on the outline, must have half of it there; move it");
     }
 }
 
@@ -115,7 +116,7 @@ Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& con
     }
     if (covered.empty()) {
         refuse("edges at a support", 0.0, "",
-            "at least 1 must face it; lay it on the outline, its normal turned inwards");
+            "must be >= 1; place the support on the outline with its normal inwards");
     }
     p.position = patch.place;
     double nearest = std::numeric_limits<double>::infinity();
@@ -152,11 +153,12 @@ void check(const Jaw& jaw, const PlateContact& contact)
     check_positive("distance of a jaw from the disc's centre", least, "m");
     check_finite("radius of a jaw", jaw.radius, "m");
     if (!(jaw.radius >= least * (1.0 - 1e-9)))
-        refuse(
-            "radius of a jaw", jaw.radius, "m", "must be >= " + number(least) + " m, the disc's");
+        refuse("radius of a jaw", jaw.radius, "m",
+            "must be >= " + number(least) + " m, the radius of the disc; give a larger radius");
     if (!(jaw.angle > 0.0 && jaw.angle <= widest_jaw * (1.0 + 1e-9)))
-        refuse("angle of a jaw", jaw.angle, "rad", "must be above 0 and <= 2 pi / 3");
-    if (contact.bonded) refuse("bond of a jaw", 1.0, "", "must be 0: a jaw only presses");
+        refuse("angle of a jaw", jaw.angle, "rad", "must be > 0 and <= 2 pi / 3; correct it");
+    if (contact.bonded)
+        refuse("bond of a jaw", 1.0, "", "must be 0: a jaw only presses; leave it out");
 }
 
 Plate jaw_plate(const Assembly& a, const Jaw& jaw, const PlateContact& contact)
@@ -197,7 +199,7 @@ Plate jaw_plate(const Assembly& a, const Jaw& jaw, const PlateContact& contact)
         }
     }
     if (p.points.empty())
-        refuse("edges at a jaw", 0.0, "", "must be at least 1; lay it on the rim of the disc");
+        refuse("edges at a jaw", 0.0, "", "must be >= 1; place it on the rim of the disc");
     // the rim has a node near the middle, not on it
     const double nearest = least_gap(p);
     for (PlatePoint& point : p.points)

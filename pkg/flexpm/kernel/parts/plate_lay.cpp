@@ -165,7 +165,8 @@ void seat(const Assembly& a, Plate& p)
     }
     if (std::all_of(p.points.begin(), p.points.end(),
             [](const PlatePoint& point) { return point.arm.z == 0.0; }))
-        refuse("points of a seated plate", plate_points(p), "", "must be at least 2, apart");
+        refuse("points of a seated plate", plate_points(p), "",
+            "must be >= 2 at different positions; use a longer plate");
     lay_down(p);
 }
 
@@ -184,7 +185,7 @@ std::vector<int> add_plates(Assembly& a, const std::vector<Plate>& plates)
             if (!overlap(a, p, a.plates[i])) continue;
             refuse("plate", place(p.position),
                 "lies on plate " + std::to_string(i)
-                    + ", must not: both would bear; take another part of the outline");
+                    + ", must not: both would carry the load; use another part of the outline");
         }
     }
     std::vector<int> numbers;

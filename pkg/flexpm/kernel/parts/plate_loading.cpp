@@ -23,7 +23,7 @@ Plate& plate_at(BondedState& state, int plate)
 void require_plate(const BondedState& state, int plate)
 {
     if (plate < 0 || plate >= static_cast<int>(state.plates.size()))
-        refuse("plate", plate, "", "must be the number of a plate; add one first");
+        refuse("plate", plate, "", "must be the index of a plate; add one first");
 }
 
 int find_plate(const BondedState& state, int side)
@@ -55,8 +55,8 @@ void free_plate(SolidState& s, int plate)
 {
     Plate& p = plate_at(s, plate);
     if (!(p.face_area > 0.0) || is_jaw(p))
-        refuse("area of a plate", p.face_area, "m^2",
-            "must be above 0; lay one on a part of the side");
+        refuse(
+            "area of a plate", p.face_area, "m^2", "must be > 0; place it on a part of the side");
     if (p.loaded) return;
     p.loaded = true;
     p.load = dot(p.normal, p.force);  // it stays where it is until a pressure acts

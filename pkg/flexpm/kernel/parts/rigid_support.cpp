@@ -75,12 +75,13 @@ void RigidSupport::require_resistance() const
     const std::string names = "xyz";
     if (std::fabs(follows[about]) > no_rotation * std::fabs(follows[axis])) {
         refuse("resistance of the supports", 0.0, "N",
-            std::string("must be above 0: the specimen turns about ") + names[about - 3]
-                + " and follows what is driven; give a part friction or a pin, or hold nodes");
+            std::string("must be > 0: the specimen rotates about ") + names[about - 3]
+                + " with the driven parts; give a part friction or a pin, or fix nodes");
     }
     refuse("resistance of the supports", 0.0, "N",
-        std::string("must be above 0: the specimen moves along ") + names[axis]
-            + " with what is driven; lay a part against it, or hold nodes along " + names[axis]);
+        std::string("must be > 0: the specimen moves along ") + names[axis]
+            + " with the driven parts; add a part that resists it, or fix nodes along "
+            + names[axis]);
 }
 
 }  // namespace flexpm

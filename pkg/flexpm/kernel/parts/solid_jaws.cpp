@@ -31,7 +31,8 @@ void check(const SolidJaw& jaw)
     check_not_negative("friction of a plate", jaw.friction, "");
     check_positive("angle of a jaw", jaw.angle, "rad");
     check_positive("way from the axis to a jaw", norm(across_axis(jaw.towards)), "m");
-    if (jaw.angle > widest) refuse("angle of a jaw", jaw.angle, "rad", "must be <= 2 pi / 3");
+    if (jaw.angle > widest)
+        refuse("angle of a jaw", jaw.angle, "rad", "must be <= 2 pi / 3; give a smaller angle");
     if (!(jaw.ratio >= 1.0))
         refuse("radius of a jaw over the disc's", jaw.ratio, "", "must be >= 1");
 }
@@ -128,7 +129,8 @@ Plate jaw_before(const SolidState& s, const SolidJaw& jaw)
         middle += own * piece.place.y;
     }
     if (p.points.empty())
-        refuse("triangles before a jaw", 0.0, "", "must be above 0; lay it on a disc's mantle");
+        refuse("triangles before a jaw", 0.0, "",
+            "must be > 0; place it on the lateral surface of a disc");
     const double disc_radius = reach / area;
     p.position = -disc_radius * p.normal + (middle / area) * axis;
     bend(s, p, disc_radius, jaw.ratio * disc_radius);
@@ -156,7 +158,8 @@ void add_disc_plates(SolidState& s, double jaw_radius)
         const double disc_radius = std::fabs(plate.position.z);
         if (!(jaw_radius > disc_radius))
             refuse("radius of a jaw", jaw_radius, "m",
-                "must be > " + std::to_string(disc_radius) + " m, the disc's");
+                "must be > " + std::to_string(disc_radius)
+                    + " m, the radius of the disc; give a larger radius");
         bend(s, plate, disc_radius, jaw_radius);
     }
     s.plates = plates;
@@ -190,7 +193,7 @@ void require_bare(const SolidState& s, const Plate& plate)
         const double whole = norm(area_vector(s, t));
         if (covered[t] == 0.0 || covered[t] + point.area <= (1.0 + no_area) * whole) continue;
         refuse("area of a triangle before two plates", covered[t] + point.area, "m^2",
-            "must be at most its own; take another place, or a smaller part");
+            "must be <= its own area; use another position or a smaller part");
     }
 }
 

@@ -116,7 +116,7 @@ void seat(Plate& p, const std::vector<Vector>& places)
     for (const SeatPoint& corner : on) {
         if (corner.gap < above) continue;
         refuse("contacts of a seated plate", static_cast<double>(places.size()), "",
-            "must be at least 3, not in a line, around its middle");
+            "must be >= 3 around its middle, not on a line; use a larger plate");
     }
     if (p.bonded) return;
     const double at_seat = height_at(on, {});
@@ -140,7 +140,8 @@ Plate plate_before(const SolidState& s, const SolidPatch& patch)
 {
     check_not_negative("friction of a plate", patch.friction, "");
     if (patch.bonded && patch.friction > 0.0)
-        refuse("friction of a plate", patch.friction, "", "must be 0 of one that is bonded");
+        refuse("friction of a plate", patch.friction, "",
+            "must be 0 for a bonded plate; leave it out");
     if (!(std::fabs(norm(patch.normal) - 1.0) < no_gap))
         refuse("normal of a plate", norm(patch.normal), "", "must be a unit vector");
     Plate p = plain_plate(s, SolidSide::bottom);
@@ -165,7 +166,7 @@ Plate plate_before(const SolidState& s, const SolidPatch& patch)
         nearest = std::min(nearest, point.gap);
     }
     if (p.points.empty()) {
-        refuse("triangles before a plate", 0.0, "", "must be above 0; lay it on the specimen");
+        refuse("triangles before a plate", 0.0, "", "must be > 0; place it on the specimen");
     }
     p.position = (1.0 / p.face_area) * p.position;
     const double none = no_gap * norm(patch.high - patch.low);

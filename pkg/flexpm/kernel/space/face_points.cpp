@@ -311,7 +311,7 @@ FacePoints face_points(const std::vector<Vector>& corners, FacePointRule rule)
     if (result.fallback) places = equal ? corners_and_inner(face) : equal_points(face, n + 1);
     if (places.empty()) {
         refuse("face_points: corners", static_cast<double>(n), "",
-            "must bound a face with room for its points; move the spheres beside it");
+            "must bound a face with space for its contact points; move the adjacent spheres");
     }
     auto shares = shares_of(face, places);
     for (std::size_t k = 0; k < places.size(); ++k)

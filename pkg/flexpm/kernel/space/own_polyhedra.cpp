@@ -118,7 +118,7 @@ private:
                         + ": corners off its plane by",
                     bent, "m",
                     "must be <= " + number(near)
-                        + " m; take cells that are neither regularised nor cut by curves");
+                        + " m; use cells without regularization and curved cuts");
             }
             if (face.second < 0) face.wall = wall_of(static_cast<int>(f), (1.0 / size) * area);
         }
@@ -221,7 +221,7 @@ private:
         }
         if (std::abs(sum - solid.volume) <= unfilled * solid.volume) return;
         refuse("own_polyhedra: volume of all cells", sum, "m^3",
-            "must be that of the solid around them, " + number(solid.volume)
+            "must be the volume of the specimen,  " + number(solid.volume)
                 + " m^3; take cells of a box along x, y, z or of a cylinder");
     }
 };
@@ -251,7 +251,7 @@ void require_centres(const CellComplex& complex, const std::vector<Sphere>& sphe
 
 void require_sizes(const std::vector<Sphere>& spheres, const Solid& solid)
 {
-    if (spheres.empty()) refuse("own_polyhedra: cells", 0.0, "", "must be >= 1; give one");
+    if (spheres.empty()) refuse("own_polyhedra: cells", 0.0, "", "must be >= 1; give a cell");
     for (std::size_t c = 0; c < spheres.size(); ++c) {
         const std::string name = named("cell", static_cast<int>(c));
         if (!is_finite(spheres[c].centre))

@@ -80,7 +80,8 @@ std::vector<Vector> insert_spheres(
         do {
             if (++tries > most_tries) {
                 refuse("insert_spheres: radius", radii[i], "m",
-                    "must find a free place in the outline; choose smaller or fewer spheres");
+                    "must fit into the outline beside the other spheres; choose smaller or fewer "
+                    "spheres");
             }
             s.centre.x = solid.low.x + extent.x * random.next();
             s.centre.y = solid.low.y + extent.y * random.next();

@@ -19,7 +19,7 @@ using Segment = std::pair<int, int>;
 [[noreturn]] void fail_not_convex(int cell)
 {
     fail("cut_by_walls: cell", std::to_string(cell),
-        "must be convex; move its sphere or those beside it");
+        "must be convex; move its sphere or the adjacent spheres");
 }
 
 /// Edges of a rim one after the other.

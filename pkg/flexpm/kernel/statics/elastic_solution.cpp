@@ -210,7 +210,7 @@ private:
         if (least > no_stiffness * whole) return;
         fail("find_elastic_state: resistance to pressed or driven parts", number(least) + " N/m",
             "must be above " + number(no_stiffness * whole)
-                + "; hold the specimen against what presses on it");
+                + "; fix the specimen against the applied loads");
     }
 
     const Assembly& a;
@@ -255,7 +255,7 @@ double largest(const Array<double>& displacements)
     for (double v : displacements) {
         if (!std::isfinite(v))
             fail("find_elastic_state: displacement", number(v) + " m",
-                "must be a finite number; give a smaller way, load or pressure");
+                "must be finite; give a smaller displacement, load or pressure");
         found = std::max(found, std::fabs(v));
     }
     return found;

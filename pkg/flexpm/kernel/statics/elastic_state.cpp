@@ -101,7 +101,7 @@ public:
             return { state_after(a, points, now, last), last.way, 0.0, solutions + 1, 0 };
         }
         fail("find_elastic_state: solutions", number(most_solutions),
-            "must be fewer until contacts stay open or closed; give a smaller way or load");
+            "must suffice until no contact opens or closes; give a smaller displacement or load");
     }
 
     int count_beyond_friction(const Assembly& s) const
@@ -184,7 +184,7 @@ ElasticState find_elastic_state(const Assembly& a, const ElasticLoading& loading
     check_finite("load of what is driven", loading.load.value_or(0.0), "N");
     if (!a.held_edges.empty())
         refuse("held edges of rigid grains", static_cast<double>(a.held_edges.size()), "",
-            "must be none; hold nodes");
+            "must be 0; fix nodes instead");
     Assembly now = a;
     apply(now, loading);
     refresh_forces(now);

@@ -116,7 +116,7 @@ private:
             if (!(std::abs(area) > tolerance * tolerance)) {
                 refuse(name_of(i) + ": area", area, "m^2",
                     "must be above zero once corners within " + number(tolerance)
-                        + " m are one; remove it");
+                        + " m are merged; remove it");
             }
             if (area < 0.0) std::reverse(loop.begin(), loop.end());
             cells.add_cell(loop, static_cast<int>(i), false);
@@ -333,11 +333,11 @@ void check_rings(
                        : "must be closed; move corners together, or allow holes");
     }
     if (outer.size() != 1) {
-        refuse("polygons: parts that hang together", static_cast<double>(outer.size()), "",
+        refuse("polygons: connected parts", static_cast<double>(outer.size()), "",
             "must be 1; " + name_at(cells, outer[1]) + " at "
                 + place(cells.vertices[outer[1].front()]) + " does not reach "
                 + name_at(cells, outer[0]) + " at " + place(cells.vertices[outer[0].front()])
-                + ": join them, or take out what lies on others");
+                + ": join them, or remove overlapping polygons");
     }
     rings = std::move(outer);
     rings.insert(rings.end(), holes.begin(), holes.end());

@@ -50,7 +50,7 @@ void check_area(const Tessellation& t, double expected)
         area += cell_area(t, c);
     if (!(std::abs(area - expected) <= area_tolerance * expected)) {
         fail("area of the cells", number(area) + " m^2",
-            "must be that of the outline, " + number(expected)
+            "must be the area of the outline,  " + number(expected)
                 + " m^2; change the outline or the seed");
     }
 }

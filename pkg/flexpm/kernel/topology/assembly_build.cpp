@@ -332,9 +332,11 @@ void check_edges(const Tessellation& t, const AssemblyOptions& o)
 void check(const Tessellation& t, const AssemblyOptions& o)
 {
     check_positive("thickness", o.thickness, "m");
-    if (o.points < 1 || o.points > 3) refuse("contact points", o.points, "", "must be 1, 2 or 3");
+    if (o.points < 1 || o.points > 3)
+        refuse("contact points", o.points, "", "must be 1, 2 or 3; choose one of them");
     if (o.on_centre_line && o.points != 1) {
-        refuse("contact points", o.points, "", "must be 1 when the point lies on the centre line");
+        refuse("contact points", o.points, "",
+            "must be 1 when the point lies on the centre line; leave it out");
     }
     const std::size_t materials = o.elastic.size();
     if (materials == 0) refuse("materials", 0, "", "give at least one");

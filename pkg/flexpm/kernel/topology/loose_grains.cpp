@@ -74,10 +74,11 @@ void require_joined(const SolidState& s)
     const auto first = std::find(loose.begin(), loose.end(), 1);
     if (!s.has_gravity() || first == loose.end()) return;
     const int grain = static_cast<int>(first - loose.begin());
-    fail("step " + std::to_string(s.step) + ": grains that have come loose under gravity",
+    fail("step " + std::to_string(s.step) + ": grains detached under gravity",
         std::to_string(std::count(first, loose.end(), 1)) + ", the first at "
             + place(s.grains.position(s.grains.centre(grain))),
-        "must be 0 in 3D, where grains that meet anew pass through each other; load less, or take "
+        "must be 0 in 3D, where grains without a contact pass through each other; reduce the load, "
+        "or use "
         "a 2D specimen");
 }
 

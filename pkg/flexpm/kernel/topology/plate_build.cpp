@@ -102,7 +102,8 @@ std::vector<Plate> side_plates(const Assembly& a, int side, int pieces, const Pl
         groups[std::clamp(static_cast<int>(middle / width), 0, pieces - 1)].push_back(e);
     }
     if (std::any_of(groups.begin(), groups.end(), [](const auto& one) { return one.empty(); }))
-        refuse("plates on a side", pieces, "", "a plate has no edge; take fewer plates");
+        refuse("plates on a side", pieces, "",
+            "must be fewer: a plate has no edge; give a smaller number");
     const std::set<GrainPair> jointed = jointed_pairs(a.contacts);
     const bool in_blocks = pieces > 1 && !jointed.empty();
     if (in_blocks) groups = divided_at_joints(a, groups, jointed, direction);
@@ -150,7 +151,7 @@ int add_touching_plate(Assembly& a, Point normal, const PlateContact& contact)
         if (outer && along(p.normal, facet.normal()) > facing) facets.push_back(e);
     }
     if (facets.empty())
-        refuse("plate", 0, "", "no boundary edge faces it; turn its normal inwards");
+        refuse("plate", 0, "", "no boundary edge faces it; let its normal point inwards");
     const TouchAt points = points_on(a, facets);
     for (int e : facets) {
         const FacetPlace facet = facet_place(a, e);

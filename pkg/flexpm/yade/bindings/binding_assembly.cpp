@@ -53,7 +53,9 @@ void register_assembly_bindings()
 {
 	const auto mesh = +[](const Input& i) { return std::string(i.options.mesh == flexpm::MeshKind::fan ? "fan" : "refined"); };
 	py::class_<Input, std::shared_ptr<Input>>(
-	        "AssemblyInput", "What GrainSolver.assemble takes beside the materials. Arrays are copied; one that is not given is empty.", py::no_init)
+	        "AssemblyInput",
+	        "Arguments of GrainSolver.assemble in addition to the materials. Arrays are copied; arrays that are not given are empty.",
+	        py::no_init)
 	        .def("__init__",
 	             py::make_constructor(
 	                     assemblyInput, py::default_call_policies(), (py::arg("tessellation"), py::arg("centres"), py::arg("radii"), py::arg("thickness"))),
@@ -62,7 +64,7 @@ void register_assembly_bindings()
 	                "rigid",
 	                +[](const Input& i) { return i.options.rigid; },
 	                +[](Input& i, const py::object& v) { i.options.rigid = flagOf(v, "rigid"); },
-	                "Grains move as one body each: mesh and Young's modulus do not matter.")
+	                "Grains are rigid bodies: mesh and Young's modulus do not matter.")
 	        .add_property(
 	                "mesh",
 	                mesh,
@@ -84,7 +86,7 @@ void register_assembly_bindings()
 	                "minerals",
 	                +[](const Input& i) { return copied(i.options.grain_material, 0); },
 	                +[](Input& i, const py::object& v) { assign<int>(i.options.grain_material, v, "minerals"); },
-	                "Per cell: its material, by the number in that list; empty: all the first.")
+	                "Per cell: index of its material in that list; empty: all the first.")
 	        .add_property(
 	                "parent",
 	                +[](const Input& i) { return copied(i.options.parent, 0); },
@@ -109,7 +111,7 @@ void register_assembly_bindings()
 	                "edge_joints",
 	                +[](const Input& i) { return copied(i.options.edge_joint, 0); },
 	                +[](Input& i, const py::object& v) { assign<int>(i.options.edge_joint, v, "edge_joints"); },
-	                "Per shared edge: its joint, by the number in the list of their materials, -1 for none; empty: all -1.");
+	                "Per shared edge: index of its joint in the list of joint materials, -1 for none; empty: all -1.");
 }
 
 } // namespace flexpm_bindings

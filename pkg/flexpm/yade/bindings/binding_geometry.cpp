@@ -137,7 +137,7 @@ namespace {
 		        .add_property(
 		                "laguerre",
 		                laguerreOf,
-		                "Per cell: 1 for the whole Laguerre cell of its disc, 0 for one that was given, sawn, cut or split (a copy).")
+		                "Per cell: 1 for the whole Laguerre cell of its disc, 0 for a user-supplied, cut or split cell (a copy).")
 		        .add_property(
 		                "shared_edges", integers<T, flexpm::SharedEdge, &T::shared_edges>, "Rows cell_a < cell_b, start, end; cell_a on the left.")
 		        .add_property("boundary_edges", integers<T, flexpm::BoundaryEdge, &T::boundary_edges>, "Rows cell, start, end, side of the outline.")
@@ -152,12 +152,12 @@ namespace {
 		using M = GrainMeshes;
 		py::class_<M, std::shared_ptr<M>>("GrainMeshes", "Meshes of all grains, end to end. Arrays are read-only views.", py::no_init)
 		        .add_property("nodes", meshRows<double, flexpm::Point, &M::nodes>, "Node positions, (n, 2) [m].")
-		        .add_property("triangles", meshRows<int, flexpm::Triangle, &M::triangles>, "Node numbers within the grain, (m, 3), counter-clockwise.")
+		        .add_property("triangles", meshRows<int, flexpm::Triangle, &M::triangles>, "Node indices within the grain, (m, 3), counter-clockwise.")
 		        .add_property("node_offsets", meshRows<int, int, &M::nodeOffsets>, "Grain i owns nodes[node_offsets[i]:node_offsets[i + 1]].")
 		        .add_property("triangle_offsets", meshRows<int, int, &M::triangleOffsets>, "Grain i owns triangles[triangle_offsets[i]:...].")
 		        .add_property("first_vertex", meshRows<int, int, &M::firstVertex>, "Corner of the cell on which node 0 of the grain lies.")
 		        .add_property("standard", meshRows<std::uint8_t, std::uint8_t, &M::standard>, "1: connectivity of the template.")
-		        .add_property("fallback", meshRows<std::uint8_t, std::uint8_t, &M::fallback>, "1: fan, although refined was asked for.")
+		        .add_property("fallback", meshRows<std::uint8_t, std::uint8_t, &M::fallback>, "1: fan, although refined was requested.")
 		        .add_property(
 		                "moved_centre",
 		                meshRows<std::uint8_t, std::uint8_t, &M::movedCentre>,

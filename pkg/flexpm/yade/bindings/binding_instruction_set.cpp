@@ -29,7 +29,7 @@ namespace {
 			if (name == flexpm::name_of(set)) return flexpm::use_instruction_set(set);
 			known += (known.empty() ? "" : ", ") + std::string(flexpm::name_of(set));
 		}
-		throw std::invalid_argument("instruction set = '" + name + "', must be one that this machine has: " + known);
+		throw std::invalid_argument("instruction set = '" + name + "', must be available on this machine; choose one of  " + known);
 	}
 
 	std::string instructionSet() { return flexpm::name_of(flexpm::instruction_set()); }

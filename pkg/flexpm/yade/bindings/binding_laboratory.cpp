@@ -46,7 +46,7 @@ namespace {
 			        "must be one for each of " + std::to_string(values.size(0)) + " strengths; give two spheres for each bond");
 		for (int b = 0; b < static_cast<int>(values.size(0)); ++b)
 			bonds.push_back({ values.data()[b], sizes.data()[b], { ends.data()[2 * b], ends.data()[2 * b + 1] } });
-		if (bonds.empty()) flexpm::refuse("strengths", 0.0, "", "must be at least one; give those of the bonds");
+		if (bonds.empty()) flexpm::refuse("strengths", 0.0, "", "must be >= 1; give the strengths of the bonds");
 		return py::make_tuple(flexpm::lowest_value(bonds), flexpm::connecting_value(bonds, spheres));
 	}
 
@@ -134,7 +134,7 @@ void register_laboratory_bindings()
 	py::def("reference_strength",
 	        referenceStrength,
 	        (py::arg("tension"), py::arg("tensile_strength"), py::arg("cohesion"), py::arg("friction")),
-	        "Strength that the contacts alone would give a specimen [Pa].");
+	        "Strength of a specimen from its contacts alone [Pa].");
 	py::def("bond_strengths",
 	        bondStrengths,
 	        (py::arg("strengths"), py::arg("areas"), py::arg("pairs"), py::arg("spheres")),
@@ -151,7 +151,7 @@ void register_laboratory_bindings()
 	py::def("axial_stress",
 	        axialStress,
 	        (py::arg("bottom"), py::arg("top"), py::arg("area"), py::arg("tension")),
-	        "Mean of the forces that hold both ends [N] over an area [m2], positive in the sense of the loading [Pa].");
+	        "Mean of the reactions of both ends [N] over an area [m2], positive in the sense of the loading [Pa].");
 	py::def("end_mismatch", endMismatch, (py::arg("bottom"), py::arg("top")), "|sum of both ends' forces| over the larger [-].");
 	py::def("splitting_area",
 	        flexpm::splitting_area,

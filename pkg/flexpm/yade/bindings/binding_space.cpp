@@ -160,7 +160,7 @@ namespace {
 
 void register_space_bindings()
 {
-	py::class_<Solid>("Solid", "Convex outline in space.", py::no_init)
+	py::class_<Solid>("Solid", "Convex outline in 3D.", py::no_init)
 	        .def("box", Solid::box, (py::arg("width"), py::arg("depth"), py::arg("height")), "Box from the origin.")
 	        .staticmethod("box")
 	        .def("cylinder", Solid::cylinder, (py::arg("diameter"), py::arg("height"), py::arg("grain")), "Upright prism about the z axis, from z = 0.")
@@ -176,7 +176,7 @@ void register_space_bindings()
 	             "Upper half of a prism about the y axis, from y = 0, flat below at z = 0, with a facet on top.")
 	        .staticmethod("half_disc")
 	        .add_property("walls", walls, "Rows nx, ny, nz, offset: outside where n . p > offset.")
-	        .add_property("sides", sides, "Side of each wall: 0 bottom, 1 right or mantle, 2 top, 3 left, 4 front, 5 back.")
+	        .add_property("sides", sides, "Side of each wall: 0 bottom, 1 right or lateral surface, 2 top, 3 left, 4 front, 5 back.")
 	        .def_readonly("volume", &Solid::volume, "[m^3]");
 	registerPolyhedra();
 	using M = FanMeshes;
@@ -198,7 +198,7 @@ void register_space_bindings()
 	        polyhedra,
 	        (py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("allow_hidden"), py::arg("notches") = py::list()),
 	        "Laguerre cells of rows x, y, z, radius; notches: x and z of the front of each, and whether it comes from above; flanks of notch i have the "
-	        "number of walls and i as their wall.");
+	        "walls + i as their wall.");
 	py::def("own_polyhedra",
 	        ownPolyhedra,
 	        (py::arg("vertices"), py::arg("faces"), py::arg("spheres"), py::arg("solid"), py::arg("short_edge")),

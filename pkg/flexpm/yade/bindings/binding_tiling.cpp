@@ -138,11 +138,11 @@ void register_tiling_bindings()
 	        .def("__init__", py::make_constructor(polygonOutline, py::default_call_policies(), (py::arg("corners"), py::arg("holes"))))
 	        .add_property("rings", ringsOf, "Corners, (n, 2) [m]: counter-clockwise, then of each hole, clockwise.")
 	        .add_property("area", &PolygonOutline::area, "Without the holes [m^2].");
-	py::class_<Tiling, std::shared_ptr<Tiling>>("Tiling", "Cells and what belongs to each.", py::no_init)
+	py::class_<Tiling, std::shared_ptr<Tiling>>("Tiling", "Cells and their data.", py::no_init)
 	        .add_property("tessellation", tessellationOf, "The cells.")
 	        .add_property("discs", discsOf, "Rows x, y, radius [m], one per cell: reference point and radius.")
 	        .add_property("origin", originOf, "Per cell: the grain that it is, or is a piece of.")
-	        .add_property("edge_joints", edgeJointsOf, "Per shared edge: number of its joint, -1 without.");
+	        .add_property("edge_joints", edgeJointsOf, "Per shared edge: index of its joint, -1 without.");
 	py::def("cells_in_outline",
 	        cellsInOutline,
 	        (py::arg("centres"), py::arg("radii"), py::arg("outline"), py::arg("short_edge")),
@@ -155,7 +155,7 @@ void register_tiling_bindings()
 	        cutByJoints,
 	        (py::arg("tessellation"), py::arg("centres"), py::arg("radii"), py::arg("joints"), py::arg("lines"), py::arg("numbers"), py::arg("tell")),
 	        "Cells cut by lines, each (n, 2) [m], of joints with numbers; joints has those that shared edges have already, -1 without. "
-	        "tell takes the number of lines done. Also rows length, cut, taken, outside [m] and contacts, joint that has taken, one per line.");
+	        "tell is called with the number of lines done. Also rows length, cut, taken, outside [m] and contacts, joint that has taken, one per line.");
 	py::def("cells_of_file",
 	        cellsOfFile,
 	        (py::arg("vertices"), py::arg("cells"), py::arg("sides"), py::arg("joints"), py::arg("centres"), py::arg("radii"), py::arg("laguerre")),

@@ -25,7 +25,7 @@ OwnedAssembly findAssembly(const Scene& scene)
 OwnedAssembly assemblyOf(const Scene& scene)
 {
 	auto found = findAssembly(scene);
-	if (!found.engine) throw std::runtime_error("GrainSolver: O.engines = none with grains, must hold one; build the specimen first (flexpm.build)");
+	if (!found.engine) throw std::runtime_error("GrainSolver: O.engines has no engine with grains; build the specimen first (flexpm.build)");
 	found.showNodes();
 	return found;
 }
@@ -48,8 +48,7 @@ OwnedContact ownedContact(int id)
 	OwnedContact found { assemblyOf(*Omega::instance().getScene()), -1 };
 	found.place = contactAt(found, id);
 	if (found.place >= 0 && dynamic_cast<const AssemblyOwner&>(*found.engine).holds(found.place)) return found;
-	throw std::runtime_error(
-	        "contact = " + std::to_string(id) + ", is no contact of the solver, has ended or was erased; take the bonds anew from O.interactions");
+	throw std::runtime_error("contact = " + std::to_string(id) + ", does not exist, has ended or was erased; read the bonds from O.interactions again");
 }
 
 } // namespace yade

@@ -141,7 +141,7 @@ void LaguerreCell::setMotion(Vector3r velocity, Real spin) const
 void LaguerreCell::setSpaceMotion(Vector3r velocity, Vector3r spin) const
 {
 	const auto owned = assemblyOfGrain(grain);
-	if (owned.plane) flexpm::refuse("spin", "a vector", "must be a number for a grain of the plane; give the one about z");
+	if (owned.plane) flexpm::refuse("spin", "a vector", "must be a number for a 2D grain; give the spin about z");
 	flexpm::set_motion(*owned.space, grain, { velocity[0], velocity[1], velocity[2] }, { spin[0], spin[1], spin[2] });
 }
 

@@ -48,7 +48,7 @@ namespace {
 	OwnedContact requireSpace(int contact, const char* quantity)
 	{
 		const auto owned = ownedContact(contact);
-		if (owned.plane) flexpm::refuse(quantity, "of the plane", "must be of a solid; in the plane take ends, traction and area");
+		if (owned.plane) flexpm::refuse(quantity, "2D", "must be 3D; in 2D use ends, traction and area");
 		return owned;
 	}
 
@@ -141,7 +141,7 @@ Real LobattoGeom::presentPenetrationDepth() const
 py::object LobattoGeom::ends() const
 {
 	const auto owned = ownedContact(contact);
-	if (owned.space) flexpm::refuse("ends", "of a solid", "must be of the plane; a face in space has corners");
+	if (owned.space) flexpm::refuse("ends", "3D", "must be 2D; use corners for a 3D face");
 	const auto start = flexpm::contact_end(*owned.plane, owned.place, 0), end = flexpm::contact_end(*owned.plane, owned.place, 1);
 	return flexpm_bindings::copied(Numbers { start.x, start.y, end.x, end.y }, 2, Access::readOnly);
 }

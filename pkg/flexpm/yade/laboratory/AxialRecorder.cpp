@@ -57,7 +57,7 @@ namespace {
 		solver.diverged = true;
 		throw std::runtime_error(
 		        "AxialRecorder: " + string(bad) + " is not a finite number at step " + std::to_string(now.step)
-		        + "; lower the loading rate or check what is driven");
+		        + "; lower the loading rate or check the driven parts");
 	}
 
 } // namespace
@@ -151,7 +151,7 @@ std::pair<Real, Real> AxialRecorder::measure(const string& column, GrainSolver& 
 		if (!own)
 			throw std::invalid_argument(
 			        "AxialRecorder.controlled = " + column
-			        + ", must be the name of a gauge, load between parts of the plane, cmod of a solid, or lateral_strain between ends");
+			        + ", must be the name of a gauge, load between parts in 2D, cmod in 3D, or lateral_strain between ends; choose one of them");
 		if (column == "lateral_strain") own->first -= zero[1];
 		return *own;
 	};
@@ -182,7 +182,7 @@ Real AxialRecorder::reading(const string& name) const
 	const auto solver = GrainSolver::ofScene(*Omega::instance().getScene());
 	for (const auto& gauge : gauges)
 		if (gauge->name == name) return solver->placed() ? gauge->reading(*solver->placed()) : gauge->reading(solver->current());
-	throw std::invalid_argument("AxialRecorder.reading: gauge = " + name + ", must be the name of one");
+	throw std::invalid_argument("AxialRecorder.reading: gauge = " + name + ", must be the name of a gauge; add it with addGauge");
 }
 
 void AxialRecorder::addGauge(const shared_ptr<Gauge>& gauge)
@@ -190,7 +190,7 @@ void AxialRecorder::addGauge(const shared_ptr<Gauge>& gauge)
 	if (!gauge) throw std::invalid_argument("AxialRecorder.addGauge: gauge = None, must be a Gauge");
 	if (!values.empty()) throw std::runtime_error("AxialRecorder.addGauge: the record has rows, must be empty; add gauges before the first step");
 	if (py::extract<bool>(names().contains(gauge->name)))
-		throw std::invalid_argument("AxialRecorder.addGauge: name = " + gauge->name + ", must not be that of another column");
+		throw std::invalid_argument("AxialRecorder.addGauge: name = " + gauge->name + ", must not be the name of another column; choose another name");
 	gauges.push_back(gauge);
 }
 

@@ -14,7 +14,7 @@ void LoadingController::preload(Real, int) { refusePreload(); }
 
 void LoadingController::release() { refusePreload(); }
 
-void LoadingController::refusePreload() const { throw std::runtime_error(getClassName() + ": preload = asked for, must be left out: it is for driven ends"); }
+void LoadingController::refusePreload() const { throw std::runtime_error(getClassName() + ": preload is available for driven ends only; leave it out"); }
 
 void LoadingController::renew(flexpm::Assembly& assembly, bool cracksCount)
 {

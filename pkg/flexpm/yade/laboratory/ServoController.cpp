@@ -33,7 +33,7 @@ void ServoController::begin(Real reading, Real growth)
 {
 	if (!(growth > 0))
 		throw std::invalid_argument(
-		        "control = " + recorder->controlled + ", must be a measure that grows along the loading; turn its direction or load");
+		        "control = " + recorder->controlled + ", must be a measure that increases along the loading; reverse its direction or the load");
 	rate               = flexpm::growth_at_unit_factor(growth, ends->velocityFactor);
 	recorder->setPoint = seen = reading;
 }

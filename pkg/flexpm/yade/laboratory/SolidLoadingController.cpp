@@ -15,7 +15,7 @@ SolidLoadingController::~SolidLoadingController() = default;
 flexpm::SolidState& SolidLoadingController::stateOf(GrainSolver& solver)
 {
 	auto* state = solver.placed();
-	if (!state) throw std::runtime_error("SolidLoadingController: specimen = 2D, must be 3D; take PlateController");
+	if (!state) throw std::runtime_error("SolidLoadingController: specimen = 2D, must be 3D; use PlateController");
 	return *state;
 }
 

@@ -28,7 +28,8 @@ SolidPartFrame::~SolidPartFrame() = default;
 
 flexpm::TestFrame TestFrame::frame(const flexpm::Assembly&) const
 {
-	throw std::invalid_argument("AxialRecorder.frame = TestFrame, must be a RectangleFrame, an EndFrame of a solid, a DiscFrame or a PartFrame");
+	throw std::invalid_argument(
+	        "AxialRecorder.frame = TestFrame, must be a RectangleFrame, an EndFrame in 3D, a DiscFrame or a PartFrame; use one of them");
 }
 
 flexpm::TestScales TestFrame::scales(const flexpm::Assembly& assembly, Real) const
@@ -142,7 +143,7 @@ namespace {
 	flexpm::SolidState& solidOf(GrainSolver& solver)
 	{
 		if (auto* state = solver.placed()) return *state;
-		throw std::invalid_argument("AxialRecorder.frame = EndFrame, must be a RectangleFrame, DiscFrame or PartFrame for grains of the plane");
+		throw std::invalid_argument("AxialRecorder.frame = EndFrame, must be a RectangleFrame, DiscFrame or PartFrame in 2D; use one of them");
 	}
 
 } // namespace
@@ -212,7 +213,11 @@ namespace {
 	{
 		flexpm::SolidState state = solidOf(*GrainSolver::ofScene(*Omega::instance().getScene()));
 		if (state.step > 0)
-			flexpm::refuse("steps of the scene", Real(state.step), "", "must be 0: the static solution of a solid is that of the unloaded one");
+			flexpm::refuse(
+			        "steps of the scene",
+			        Real(state.step),
+			        "",
+			        "must be 0: the static solution in 3D holds for the unloaded specimen; build the specimen again");
 		for (int plate : floating)
 			flexpm::free_plate(state, plate);
 		return state;

@@ -22,7 +22,7 @@ namespace {
 
 	void requirePeriod(const char* name, int steps)
 	{
-		if (steps < 1) fail(std::string("GrainSolver.") + name, std::to_string(steps), "must be at least 1 step");
+		if (steps < 1) fail(std::string("GrainSolver.") + name, std::to_string(steps), "must be >= 1 step; give a larger number");
 	}
 
 	/// Cores of the machine.
@@ -37,13 +37,13 @@ namespace {
 void GrainSolver::requirePlane() const
 {
 	requireGrains();
-	if (dimension() == 3) fail("GrainSolver: specimen", "3D", "must be 2D for this call; the page 'Available in 2D and 3D' names what to use instead");
+	if (dimension() == 3) fail("GrainSolver: specimen", "3D", "must be 2D for this call; the page 'Available in 2D and 3D' names an alternative");
 }
 
 void GrainSolver::requireSolid() const
 {
 	requireGrains();
-	if (dimension() == 2) fail("GrainSolver: specimen", "2D", "must be 3D for this call; addSidePlates, addPatchPlate and addJawPlate lay plates in 2D");
+	if (dimension() == 2) fail("GrainSolver: specimen", "2D", "must be 3D for this call; use addSidePlates, addPatchPlate or addJawPlate in 2D");
 }
 
 void GrainSolver::requireGrains() const
@@ -61,7 +61,7 @@ void GrainSolver::requireReady() const
 {
 	requireGrains();
 	requirePeriods();
-	if (!(touchMargin >= 0 && touchMargin <= 10)) fail("GrainSolver.touchMargin", number(touchMargin), "must be from 0 to 10 diameters");
+	if (!(touchMargin >= 0 && touchMargin <= 10)) fail("GrainSolver.touchMargin", number(touchMargin), "must be 0 to 10 diameters; correct it");
 	requireInScene();
 	requireMasses();
 	requireOwnValues();
@@ -112,7 +112,7 @@ int GrainSolver::threads() const
 	if (ompThreads >= 1 && ompThreads <= cores()) return ompThreads;
 	fail("GrainSolver.ompThreads",
 	     std::to_string(ompThreads),
-	     "must be from 1 to " + std::to_string(cores()) + ", the cores of this machine, or -1 for the threads of YADE");
+	     "must be 1 to " + std::to_string(cores()) + ", the cores of this machine, or -1 for the threads of YADE; correct it");
 }
 
 Body* GrainSolver::bodyOf(const Scene& world, int grain) const
@@ -127,14 +127,14 @@ Body* GrainSolver::bodyOf(const Scene& world, int grain) const
 
 void GrainSolver::requireOwnScene() const
 {
-	if (ofScene(*scene).get() != this) fail("GrainSolver: O.engines", "two with grains", "must hold one" + buildAgain);
+	if (ofScene(*scene).get() != this) fail("GrainSolver: O.engines", "two engines with grains", "must have one" + buildAgain);
 	bool any = false;
 	for (int grain = 0; grain < grainCount(); ++grain) {
 		const Body* body = bodyOf(*scene, grain);
 		if (!body) continue;
 		any = true;
 		if (body->material == materials[(isSolid() ? space.grains : assembly.grains).material[grain]]) continue;
-		fail("O.bodies[" + std::to_string(bodyIds[grain]) + "].material", "another one", "must stay that of the build" + buildAgain);
+		fail("O.bodies[" + std::to_string(bodyIds[grain]) + "].material", "changed", "must stay as built" + buildAgain);
 	}
 	if (!any) fail("GrainSolver: grains in O.bodies", "0", "must be at least 1" + buildAgain);
 }

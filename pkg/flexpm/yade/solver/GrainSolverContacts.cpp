@@ -94,7 +94,7 @@ void GrainSolver::refuseErased()
 	flexpm::fail(
 	        getClassName() + ": grains and bonds that are erased",
 	        std::to_string(grains) + " and " + std::to_string(bonds),
-	        "must be 0: a solid keeps them; build the specimen again (O.reset(), flexpm.build)");
+	        "must be 0 in 3D; build the specimen again (O.reset(), flexpm.build)");
 }
 
 void GrainSolver::listCandidates()

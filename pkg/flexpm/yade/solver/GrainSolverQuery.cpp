@@ -65,7 +65,7 @@ py::tuple GrainSolver::wallForces(vector<int> grains)
 {
 	std::vector<char> inside(current().grains.count, 0);
 	for (int grain : grains) {
-		if (grain < 0 || grain >= assembly.grains.count) flexpm::refuse("wallForces: grain", grain, "", "must be one that there is");
+		if (grain < 0 || grain >= assembly.grains.count) flexpm::refuse("wallForces: grain", grain, "", "must be the index of a grain; correct it");
 		inside[grain] = 1;
 	}
 	const auto found = flexpm::forces_on_wall(assembly, inside);

@@ -39,7 +39,7 @@ vector<shared_ptr<Material>> GrainSolver::materialsOf(const py::list& list)
 	for (py::ssize_t i = 0; i < py::len(list); ++i) {
 		const py::extract<shared_ptr<GrainMat>> material(list[i]);
 		if (!material.check() || !material())
-			flexpm::refuse("material " + std::to_string(i), "no GrainMat", "must be one; give a GrainMat for each mineral");
+			flexpm::refuse("material " + std::to_string(i), "another class", "must be a GrainMat; give one for each mineral");
 		all.push_back(material());
 	}
 	return all;

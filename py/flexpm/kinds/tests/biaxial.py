@@ -18,7 +18,7 @@ _RATES = {
 
 KIND = TestKind(
     name="biaxial",
-    other_hint="; triaxial is the test of solids",
+    other_hint="; use triaxial for 3D specimens",
     order=3,
     about="compression under the confinement, which acts on all sides first",
     confined=True,

@@ -141,8 +141,8 @@ KIND = TestKind(
     options=(
         Option(
             "notch",
-            "Depth of each of the four notches, which form two pairs: one notch from above, one "
-            "from below",
+            "Depth of each of the four notches, which form two pairs: one notch from above, the "
+            "other from below",
             "m",
             NOT_NEGATIVE,
             default="0.2 of the height",

@@ -19,8 +19,8 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
     wave, sides = asked.word("wave", WAVES), asked.word(SIDES, (HELD, FREE))
     if sides == FREE and wave != WAVES[0]:
         raise InputError(
-            f"run: {SIDES} = {FREE}, must be {HELD} for wave = {wave}: a bar that is bent has no "
-            "speed of its own; leave it out"
+            f"run: {SIDES} = {FREE}, must be {HELD} for wave = {wave}: the speed of a bending wave "
+            "depends on its wavelength; leave it out"
         )
     return {"wave": wave, SIDES: None if sides == HELD else sides}
 

@@ -23,7 +23,7 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
     if "depth" not in asked.sizes:
         raise InputError(
             f"run: second_confinement = {pressure:g} Pa, must be left out for a cylinder, whose "
-            "mantle is one side; test a box"
+            "lateral surface is one side; use a box"
         )
     return {"second_confinement": pressure, **friction}
 
@@ -42,7 +42,7 @@ KIND = TestKind(
         "cylinder": Variant(_RATES, static_models=("flexible", "rigid")),
         "box": Variant(_RATES, static_models=("flexible", "rigid")),
     },
-    other_hint="; biaxial is the test of the plane",
+    other_hint="; use biaxial for 2D specimens",
     confined=True,
     stages=(Stage.CONFINE, Stage.LOAD),
     options=(

@@ -258,7 +258,9 @@ def run_map(
     try:
         return crack_map(name, title, drawing, result, shown, chart, after, turns=turns)
     except (LookupError, ValueError):
-        raise InputError("specimen.vtu = another one, must be that of cracks.csv") from None
+        raise InputError(
+            "specimen.vtu and cracks.csv belong to different runs; rerun the test"
+        ) from None
 
 
 def _state_after(folder: Path, before: AnySnapshot) -> SolidSnapshot | None:
@@ -311,10 +313,11 @@ def _reading(result: Result) -> str:
     lines = ["Fragments are counted as the test ends, in mid-fall: at rest there are fewer."]
     if result.confinement:
         lines.append(
-            "Under a confinement read the peak: what comes after it depends on the loading, too."
+            "Under a confining pressure read the peak: the curve after it also depends on the "
+            "loading."
         )
     if result.material.get("joints") and result.model != "flexible" and result.youngs_modulus:
-        lines.append("Young's modulus is that of the middle half, with the joints in it (D21).")
+        lines.append("Young's modulus is measured in the middle half, with its joints (D21).")
     return " ".join(lines)
 
 
@@ -362,7 +365,7 @@ def _networks_table(result: Result) -> Rows | None:
     rows = [
         (name, *(f"{found[key]:.4g}" for key in keys)) for name, found in result.networks.items()
     ]
-    note = "Generated: traces in the specimen; cut: contacts that they have made."
+    note = "Generated: traces in the specimen; cut: contacts on them."
     return Rows("Fracture network, P21 [1/m]", ("joint", *keys), rows, note)
 
 

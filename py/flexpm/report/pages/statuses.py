@@ -26,15 +26,15 @@ STATUS = {
         False,
         "The loading was too fast: forces were not balanced up to the peak, or the energies do "
         "not balance. Strengths come out too high.",
-        "Run it again with --rate auto: at half the rate, until the status is ok and the peak "
-        "stands still; if it did so, with more --halvings. With few grains a single crack "
-        "unbalances the whole specimen: take more of them.",
+        "Run it again with --rate auto: at half the rate, until the status is ok and the peak no "
+        "longer changes; if auto was used, raise --halvings. With few grains a single crack "
+        "unbalances the whole specimen: use more grains.",
     ),
     "diverged": Status(
         "diverged",
         False,
-        "A number has become infinite, faces of a solid have turned over, or gravity has pulled a "
-        "grain of a solid loose; a warning says which. What came before is in the curve.",
+        "A number has become infinite, faces of 3D grains have inverted, or gravity has detached a "
+        "3D grain; a warning says which. The curve has all earlier rows.",
         "Lower the --rate if it was raised. Look for inputs in other units (Pa, m) and for "
         "stiffnesses that differ by many orders.",
     ),
@@ -43,8 +43,8 @@ STATUS = {
 NOT_ENDED = Status(
     "unfinished",
     False,
-    "The run is under way or was stopped: the curve ends where its files were last written, and "
-    "all numbers are those up to there.",
+    "The run is in progress or was stopped: the curve ends where its files were last written, and "
+    "all numbers are values up to there.",
     "Start the same command into the same folder: the run resumes from its checkpoint and ends "
     "with the same files as without the stop.",
 )
@@ -54,14 +54,14 @@ OWN_STATUS = {
         "ok",
         True,
         "Energies balance, and the load did not grow fast as its peak came.",
-        "Run the script again at half the rate: what changes is not of the rock.",
+        "Run the script again at half the rate: differences are not a property of the rock.",
     ),
     "not_quasistatic": Status(
         "not_quasistatic",
         False,
         "The loading was too fast: the energies do not balance, or the load grew fast as its peak "
         "came. Strengths come out too high.",
-        "Run the script again at half the rate until the peak stands still.",
+        "Run the script again at half the rate until the peak no longer changes.",
     ),
     "no_peak": Status(
         "no_peak",
@@ -74,6 +74,6 @@ OWN_STATUS = {
         "unfinished",
         False,
         "The script has not come to its end; a warning says how it stopped.",
-        "Start the same script again: it goes on from here, to the same bits.",
+        "Start the same script again: it resumes from here, with bit-identical results.",
     ),
 }

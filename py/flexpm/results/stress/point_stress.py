@@ -129,7 +129,9 @@ def require_points(label: str, value: object) -> FloatArray:
     except (TypeError, ValueError):
         found = np.empty((0, 0))
     if found.ndim != 2 or found.shape[1] != 2:
-        raise InputError(f"{label} = {quoted(value)}, must be x and y, or rows of x and y [m]")
+        raise InputError(
+            f"{label} = {quoted(value)}, must be x and y, or rows of x and y [m]; give (x, y)"
+        )
     if not np.all(np.isfinite(found)):
-        raise InputError(f"{label} = {quoted(value)}, must be finite numbers")
+        raise InputError(f"{label} = {quoted(value)}, must be finite numbers; correct them")
     return found

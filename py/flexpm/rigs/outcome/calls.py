@@ -132,7 +132,7 @@ class Calls:
     def _require_same(self, there: Table, call: Table) -> None:
         if _asked(there) != _asked(call):
             raise InputError(
-                f"out = {self._folder!r}, holds another test: call {len(self.made) + 1} = "
+                f"out = {self._folder!r}, has another test: call {len(self.made) + 1} = "
                 f"{_text(there)} there, {_text(call)} here; make the same calls or choose another "
                 "folder"
             )
@@ -245,8 +245,8 @@ class Again:
         function = getattr(type(self._rig), str(call["call"]), None)
         if function is None or not hasattr(function, "__wrapped__"):
             raise InputError(
-                f"rerun: call = {quoted(call['call'])}, must be one of the rig; take the version "
-                "of flexpm that has made the test"
+                f"rerun: call = {quoted(call['call'])}, must be a call of the rig; use the version "
+                "of flexpm that wrote the result"
             )
         given = {key: self._real(one) for key, one in call["with"].items()}
         raised = (call.get("raised") or [""])[0]

@@ -188,7 +188,7 @@ def _refuse_others(folder: Path, inputs: Table) -> None:
     else:
         whose = "another run" if is_of_flexpm(file) else "another program"
     raise InputError(
-        f"save: folder = {str(folder)!r}, holds files of {whose}, which would be replaced; choose "
+        f"save: folder = {str(folder)!r}, has files of {whose}, which would be replaced; choose "
         "another folder"
     )
 

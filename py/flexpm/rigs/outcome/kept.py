@@ -82,8 +82,8 @@ class KeptTest:
         close_open()
         if yade.O.iter != 0:
             raise InputError(
-                f"out: step of the scene = {yade.O.iter}, must be 0, at which a test with a folder "
-                "begins; build the specimen anew after O.reset()"
+                f"out: step of the scene = {yade.O.iter}, must be 0 at the start of a test with a "
+                "folder; call O.reset() and build the specimen again"
             )
         self._name, self._output = str(folder), output
         self._folder = output_folder(folder)
@@ -287,7 +287,7 @@ class KeptTest:
             pass
         whose = "another run" if is_of_flexpm(file) else "another program"
         raise InputError(
-            f"out = {self._name!r}, holds a {RESULT} of {whose}, which would be replaced; choose "
+            f"out = {self._name!r}, has a {RESULT} of {whose}, which would be replaced; choose "
             "another folder"
         )
 

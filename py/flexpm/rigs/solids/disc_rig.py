@@ -51,7 +51,9 @@ class SolidDiscRig(EndRig):
         Raises:
             InputError: always.
         """
-        raise InputError(f"roughen: friction = {friction:g}, must be left out for a disc")
+        raise InputError(
+            f"roughen: friction = {friction:g}, must not be given for a disc; leave it out"
+        )
 
     def confine(self, pressure: float, second: float | None = None) -> None:
         """Refuse a pressure.
@@ -59,7 +61,9 @@ class SolidDiscRig(EndRig):
         Raises:
             InputError: always.
         """
-        raise InputError(f"confine: pressure = {pressure:g} Pa, must be left out for a disc")
+        raise InputError(
+            f"confine: pressure = {pressure:g} Pa, must not be given for a disc; leave it out"
+        )
 
     @property
     def contact_width(self) -> float:

@@ -41,7 +41,9 @@ class EndRig(SolidGrains):
         """
         friction = require_number("roughen: friction", friction, END_FRICTION.bounds)
         if friction > 0.0 and self.tension:
-            raise InputError(f"roughen: friction = {friction:g}, must be 0 for ends that pull")
+            raise InputError(
+                f"roughen: friction = {friction:g}, must be 0 for ends that pull; leave it out"
+            )
         self._friction = friction
 
     def confine(self, pressure: float, second: float | None = None) -> None:
@@ -64,7 +66,7 @@ class EndRig(SolidGrains):
             if self.built.specimen.kind != "box":
                 raise InputError(
                     f"confine: second = {second:g} Pa, must be left out for a "
-                    f"{self.built.specimen.kind}, whose mantle is one side"
+                    f"{self.built.specimen.kind}, whose lateral surface is one side; leave it out"
                 )
         self._second = second
         frame = self._recorder.frame

@@ -87,8 +87,8 @@ class SolidPartLayout(PartLayout, SolidGrains):
             more = bonded or seated or strip is not None
             if more or friction not in (0.0, NO_SLIDING):
                 raise InputError(
-                    "support: length = None, must be given for one that is bonded or seated, or "
-                    "has friction or a strip; a line is a roller or pinned"
+                    "support: length = None, must be given for a bonded or seated support, or with "
+                    "friction or a strip; give a length"
                 )
             return self._line(at, inwards, pinned)
         edges = edges_of(length)
@@ -150,7 +150,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
                 another part lies.
         """
         if self._specimen.kind != "solid-disc":
-            raise InputError("jaw: specimen = no disc, must be one; lay supports")
+            raise InputError("jaw: the specimen is not a disc; use support() for other shapes")
         x, y, z = require_vector("jaw: position", position, axes=SPACE)
         rim = 0.5 * self._specimen.dimensions["diameter"]
         jaw = Jaw.of((x, z), (0.0, 0.0), rim, radius, angle)
@@ -176,7 +176,8 @@ class SolidPartLayout(PartLayout, SolidGrains):
         low, high = box_around(self._specimen)
         if given and not abs(upwards) > _UPRIGHT:
             raise InputError(
-                "support: normal = one across z, must be along z without a length; give a length"
+                "support: normal is not along z, which a line support without length needs; give a "
+                "length"
             )
         above = upwards if given else 0.5 * (low[2] + high[2]) - at[2]
         side = BOTTOM if above > 0.0 else TOP
@@ -223,9 +224,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
         for number, there in self._patches.items():
             if patch.overlaps(there):
                 other = Part(self, self.built.solver, "plate", number)
-                raise InputError(
-                    f"{kind}: part = {other}, lies there already, must be apart; take another place"
-                )
+                raise InputError(f"{kind}: overlaps {other}; choose another position")
         part = self._plate(kind, find, lay, requested)
         self._patches[part.number], self._traces[part.number] = patch, patch.trace
         return part

@@ -102,7 +102,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
 
     def excavate(self, *_: object, **__: object) -> NoReturn:
         """Raise InputError: available in 2D only."""
-        raise refused("excavate: specimen = a solid, must be 2D", "excavation")
+        raise refused(f"excavate: specimen = {self.built.specimen.kind}, must be 2D", "excavation")
 
     @property
     def drives(self) -> Table:
@@ -199,8 +199,8 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         holds = any(not one["seated"] for one in plates) or self._solid.nodeSets()
         if not holds and sum(one["friction"] > 0.0 for one in plates) < 2:
             raise InputError(
-                "load: parts = all seated, must hold the specimen against tipping; lay one without "
-                "a seat, or give two friction"
+                "load: the specimen can tip over because all parts are seated; use one part "
+                "without a seat, or give two parts friction"
             )
 
     def _take_hold(self) -> wrapper.LoadingController:

@@ -81,8 +81,8 @@ def side_patch(specimen: SolidSpecimen, side: int) -> Patch:
     flat = FLAT[specimen.kind]
     if side not in flat:
         raise InputError(
-            f"platen: side = {side}, must be one of {', '.join(map(str, flat))}, the flat ones of "
-            f"a {specimen.kind}; lay a support elsewhere"
+            f"platen: side = {side}, must be one of {', '.join(map(str, flat))}, the flat sides of "
+            f"a {specimen.kind}; use support() elsewhere"
         )
     low, high = box_around(specimen)
     place = 0.5 * (low + high)
@@ -101,15 +101,15 @@ def sides_under(specimen: SolidSpecimen, side: object, hole: object) -> list[int
         InputError: for one that there is not, or a hole.
     """
     if hole is not None:
-        asked = f"fluid: hole = {quoted(hole)}, must be left out for a solid"
+        asked = f"fluid: hole = {quoted(hole)}, must not be given for a 3D specimen"
         raise refused(asked, "hole_pressure")
     if side is None:
-        raise InputError("fluid: side = None, must be given; number one or several")
+        raise InputError("fluid: side = None, must be given; give the number of one or more sides")
     sides, there = sides_of(side), sorted({*FLAT[specimen.kind], _MANTLE})
     if strange := [one for one in sides if one not in there]:
         raise InputError(
-            f"fluid: side = {strange[0]}, must be one of {', '.join(map(str, there))}, those of a "
-            f"{specimen.kind}"
+            f"fluid: side = {strange[0]}, must be one of {', '.join(map(str, there))}, the sides "
+            f"of a {specimen.kind}; choose one of them"
         )
     return sides
 

@@ -65,7 +65,10 @@ class PartCycles(PartPressures):
         count = require_whole("cycle: count", count, _COUNT)
         rate = require_number("cycle: rate", rate, RATE)
         if amplitude == low:
-            raise InputError(f"cycle: amplitude = {amplitude:g} {unit}, must not be that of low")
+            raise InputError(
+                f"cycle: amplitude = {amplitude:g} {unit}, must not be equal to low; change one of "
+                "them"
+            )
         self._require_scene("cycle")
         self._require_bearing("cycle", by, min(amplitude, low))
         self.scales()
@@ -114,8 +117,8 @@ class PartCycles(PartPressures):
             self._require_start(wanted)
             if round((instants[-1] - instants[0]) / yade.O.dt) < 1:
                 raise InputError(
-                    f"follow: times = {instants[-1] - instants[0]:g} s, must take at least one "
-                    f"step of {yade.O.dt:g} s"
+                    f"follow: times = {instants[-1] - instants[0]:g} s, must be >= one "
+                    f"step of {yade.O.dt:g} s; give a longer history"
                 )
             self._farthest = max(map(abs, wanted))
         else:

@@ -64,8 +64,8 @@ class PartExcavation(PartCycles):
                 imbalance = self._balance_of_all().largest
                 raise SimulationError(
                     f"excavate: imbalance = {imbalance:.2g} of the largest force, must fall below "
-                    f"{AT_REST}, {number} of {parts} parts released; {self._most_borne}; lower "
-                    "what loads, excavate less, or release in more parts"
+                    f"{AT_REST}, {number} of {parts} parts released; {self._most_borne}; reduce "
+                    "the loads, excavate less, or release in more parts"
                 )
 
     def _begin_excavation(self, found: Excavation, number: int, parts: int) -> Span:
@@ -86,12 +86,14 @@ class PartExcavation(PartCycles):
         cells = [int(n) for n in found.cells if bodies[solver.bodyIds[int(n)]] is not None]
         if not cells:
             raise InputError(
-                f"excavate: name = {found.name}, is excavated, must be another one or left out"
+                f"excavate: name = {found.name}, is already excavated; give another name or leave "
+                "it out"
             )
         earlier = self.built.engine(wrapper.ReleaseController)
         if earlier is not None and earlier.part > 0.0:
             raise InputError(
-                f"excavate: name = {found.name}, must come when the one before has come to balance"
+                f"excavate: name = {found.name}, begins before the previous excavation is in "
+                "equilibrium; wait for its end"
             )
         self._require_hanging(found, np.array(cells))
         nodes, forces = solver.wallForces(cells) if gradually else ([], [])
@@ -113,7 +115,7 @@ class PartExcavation(PartCycles):
         lost = set(numbers[found.contains(places)].tolist())
         for part in self._all_parts:
             if isinstance(part, HeldNodes) and part.nodes and lost.issuperset(part.nodes):
-                raise InputError(f"{where}, has {part} within, must have none; hold others")
+                raise InputError(f"{where}, contains {part}; hold other nodes")
         state = self.built.snapshot()
         areas, pairs = state.grain_areas, state.contact_grains
         left = areas.copy()
@@ -125,6 +127,6 @@ class PartExcavation(PartCycles):
             last = np.flatnonzero(after.labels == len(after) - 1)
             x, y = self.built.specimen.centres[last].mean(axis=0)
             raise InputError(
-                f"{where}, leaves {len(last)} grains at ({x:.4g}, {y:.4g}) m that hang on "
-                "nothing, must leave none; excavate these, too, or less"
+                f"{where}, leaves {len(last)} grains at ({x:.4g}, {y:.4g}) m without a connection "
+                "to a part; excavate them too, or excavate less"
             )

@@ -72,7 +72,7 @@ class PartPressures(PartRest):
             parts.append(require_part("press: part", self, part, Part))
             values.append(require_number("press: pressure", pressure, NOT_NEGATIVE, "Pa"))
         if not parts:
-            raise InputError("press: parts = none, must be at least 1")
+            raise InputError("press: parts = none, must be >= 1; pass a part of the rig")
         require_apart("press: part", parts)
         for part in parts:
             self._require_free(part)
@@ -184,8 +184,8 @@ class PartPressures(PartRest):
             if set(engine.sides) & set(sides):
                 if set(engine.sides) != set(sides):
                     raise InputError(
-                        f"fluid: side = {sides}, must be all or none of those with one fluid, "
-                        f"{list(engine.sides)}"
+                        f"fluid: side = {sides}, must be all or none of the sides with one fluid, "
+                        f"{list(engine.sides)}; repeat the first list"
                     )
                 return engine
         return None
@@ -196,7 +196,7 @@ class PartPressures(PartRest):
         outline = self.built.specimen.outline
         outside = 1 if isinstance(outline, Circle) else len(outline)
         if (side is None) == (hole is None):
-            raise InputError("fluid: side, hole = both or none, must be one of them")
+            raise InputError("fluid: give exactly one of side and hole")
         if hole is not None:
             bounds = Bounds(at_least=0, at_most=len(holes) - 1)
             if not holes:
@@ -214,5 +214,5 @@ def sides_of(side: object, bounds: Bounds = ANY) -> list[int]:
     given = list(side) if isinstance(side, Iterable) and not isinstance(side, str) else [side]
     numbers = sorted({require_whole("fluid: side", one, bounds) for one in given})
     if not numbers:
-        raise InputError("fluid: side = none, must be at least 1")
+        raise InputError("fluid: side = none, must be >= 1; give a side")
     return numbers

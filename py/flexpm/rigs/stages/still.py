@@ -56,7 +56,7 @@ class PartStill(PartStatics, GrainRig):
             found = self._balance_of_all()
             raise SimulationError(
                 f"{stage}: imbalance = {found.largest:.2g} of the largest force, must fall below "
-                f"{AT_REST}; {self._most_borne}; allow more transits, or lower what loads"
+                f"{AT_REST}; {self._most_borne}; allow more transits, or reduce the loads"
             )
 
     def _begin_rest(self, crossings: float, damped: bool = True) -> Span:
@@ -157,7 +157,7 @@ class PartStill(PartStatics, GrainRig):
             f"{stage}: load = {self.stress * area:.6g} of {self._driven_part}, must come to "
             f"{targets[0] * area:.6g} within {AT_REST:g}"
             + (" and to rest" if until == "rest" else "")
-            + f"; the specimen does not bear it, or needs more crossings{self._borne}"
+            + f"; the specimen does not carry it, or needs more crossings{self._borne}"
         )
 
     def _begin_steering(
@@ -246,7 +246,7 @@ class PartStill(PartStatics, GrainRig):
         """Return the part with the largest force, in words."""
         parts = self._all_parts
         if not parts:
-            return "no part bears"
+            return "no part carries a load"
         most = max(parts, key=lambda part: math.hypot(*part.force))
         return _bears(most)
 
@@ -264,7 +264,7 @@ class PartStill(PartStatics, GrainRig):
     def _require_parts(self, stage: str) -> None:
         if not self._all_parts:
             raise InputError(
-                f"{stage}: parts = none, must be at least 1; lay what bears the weight"
+                f"{stage}: parts = none, must be >= 1; add a part that carries the weight"
             )
 
     def _require_loaded(self, stage: str) -> None:
@@ -276,4 +276,4 @@ class PartStill(PartStatics, GrainRig):
 
 def _bears(part: RigPart) -> str:
     """A part and its force, in words."""
-    return f"{part} bears {in_words(part.force, 4)} N"
+    return f"{part} carries {in_words(part.force, 4)} N"

@@ -148,13 +148,16 @@ class PartStatics(PartLoads):
         """Return the pressure of each pressed plate."""
         if not isinstance(pressures, Mapping):
             raise InputError(
-                f"elastic: pressures = {quoted(pressures)}, must be a table of parts and pressures"
+                f"elastic: pressures = {quoted(pressures)}, must be a table of parts and "
+                f"pressures; give {{part: pressure}}"
             )
         pressed = {}
         for part, pressure in pressures.items():
             number = require_part("elastic: part under a pressure", self, part, Part).number
             if number in frame.driven:
-                raise InputError(f"elastic: pressures: part = {part}, is driven, must not be")
+                raise InputError(
+                    f"elastic: pressures: part = {part}, is driven; leave it out of the pressures"
+                )
             label = "elastic: pressure on a part"
             pressed[number] = require_number(label, pressure, NOT_NEGATIVE, "Pa")
         return pressed

@@ -95,7 +95,7 @@ class SolidPartStatics(PartStatics):
             self._require_driven("elastic:")
         pressed = self._pressed(frame, {} if pressures is None else pressures)
         if not (driven or pressed):
-            raise InputError("elastic: pressures, driven parts = none, must be some")
+            raise InputError("elastic: nothing loads the specimen; pass pressures or call drive()")
         solid = self.built
         assert isinstance(solid, SolidModel)
         try:

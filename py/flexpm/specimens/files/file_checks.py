@@ -117,8 +117,9 @@ def require_types(content: Table) -> None:
     for name in ("discs", "minerals", "grains", "laguerre"):
         if content.get(name) is not None and len(content[name]) != cells:
             raise refuse(f"{name} = {len(content[name])}, must be one for each of {cells} cells")
-    if not all(row[2] > 0.0 for row in content["discs"]):
-        raise refuse("radius of a disc <= 0 m, must be > 0")
+    smallest = min((row[2] for row in content["discs"]), default=1.0)
+    if not smallest > 0.0:
+        raise refuse(f"radius of a disc = {smallest} m, must be > 0")
     vertices = len(content["vertices"])
     for ring in (*content["cells"], *(row[:2] for key in _EDGES for row in content[key])):
         if max(ring) >= vertices:
@@ -182,7 +183,7 @@ def _require_outline(found: Table) -> None:
             outline == usual if isinstance(usual, Circle) else np.array_equal(outline, usual)
         )
     if not same:
-        raise refuse(f"outline = another one, must be the {spec.kind} that spec names")
+        raise refuse(f"the outline is not the {spec.kind} in spec")
 
 
 def _require_sides(found: Table, sides: IntArray) -> None:
@@ -196,7 +197,7 @@ def _require_sides(found: Table, sides: IntArray) -> None:
     rim = np.sort(cells.boundary_edges[:, 1:3], axis=1)
     given = np.sort(sides[:, :2], axis=1)
     if len(given) != len(rim) or {*map(tuple, rim.tolist())} != {*map(tuple, given.tolist())}:
-        raise refuse("sides = edges, must be those that belong to one cell alone")
+        raise refuse("sides are not the edges that belong to exactly one cell")
     ends, number = cells.vertices[sides[:, :2]], sides[:, 2]
     least = _ROUND_OFF * 2.0 * float(np.mean(found["discs"][:, 2]))
     if isinstance(outline, Circle):
@@ -217,7 +218,7 @@ def _require_sides(found: Table, sides: IntArray) -> None:
             bends = (np.bincount(number)[number] - 1) * np.hypot(*along[number].T)
             off = np.maximum(off - 0.5 * _STRAIGHT * bends[:, None], 0.0)
     if not (whole and np.all(off <= least)):
-        raise refuse("sides = edges, must lie on the sides of the outline")
+        raise refuse("edges in sides do not lie on the outline")
     covered = float(np.sum(cells.cell_areas))
     if isinstance(outline, Circle):
         whole = 0.5 * area < covered <= area * (1.0 + _AREA)
@@ -250,10 +251,10 @@ def _require_cells(found: Table) -> None:
     spec, cells, discs = found["spec"], found["tessellation"], found["discs"]
     cut = spec.joints is not None
     if spec.discs is not None and not cut and spec.discs != checksum(discs):
-        raise refuse("discs = others, must be those that spec names")
+        raise refuse("discs differ from the discs in spec")
     pieces = found.get("grains")
     if spec.cells is not None and not cut and spec.cells != cells_checksum(cells, pieces):
-        raise refuse("cells = others, must be those that spec names")
+        raise refuse("cells differ from the cells in spec")
     sawn = spec.kind == "half-disc" or (spec.outline is not None and spec.discs is None)
     if not (cut or sawn or spec.cells is not None):
         least = _ROUND_OFF * 2.0 * float(np.mean(discs[:, 2]))
@@ -261,7 +262,7 @@ def _require_cells(found: Table) -> None:
         same = np.array_equal(there.cell_vertices, cells.cell_vertices)
         same = same and np.array_equal(there.cell_offsets, cells.cell_offsets)
         if not (same and np.allclose(there.vertices, cells.vertices, rtol=0.0, atol=least)):
-            raise refuse("cells = others, must be those of the discs")
+            raise refuse("cells differ from the cells of the discs")
     elif not (cut and spec.discs is not None and spec.cells is None):
         # discs that were given may lie anywhere, even far out of their cells
         _require_points(cells.vertices, cells.cell_vertices, cells.cell_offsets, discs)
@@ -283,7 +284,7 @@ def _require_points(
     outside = np.maximum.reduceat(-inward / discs[cell, 2], offsets[:-1])
     bad = np.flatnonzero(~(outside <= _OUTSIDE))
     if len(bad):
-        raise refuse(f"disc {bad[0]} = elsewhere, must lie in its cell")
+        raise refuse(f"disc {bad[0]} does not lie in its cell")
 
 
 def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
@@ -302,40 +303,40 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
     some = (spec.joints is None) is not (grains is None)
     some = some and not (may_be_split and spec.joints is None and not names)
     if some or bool(names) is (spec.joints is None):
-        raise refuse("joints, joint_names and grains = some, must be all there or none")
+        raise refuse("only some of joints, joint_names and grains are given")
     if grains is not None:
         numbers, first = np.unique(grains, return_index=True)
         if not (np.array_equal(numbers, np.arange(len(first))) and np.all(np.diff(first) > 0)):
-            raise refuse("grains = others, must be numbered as they come first")
+            raise refuse("grains are not numbered in the order of their first cells")
         if sawn and spec.diameters is not None:
             points = found["discs"][:, :2]
             apart = np.hypot(*(points - points[first[grains]]).T)
             if not apart.max() <= _LARGEST_GRAIN * spec.diameters[1]:
-                raise refuse("grains = others, must be pieces that a saw has parted")
+                raise refuse("grains are not pieces of cut grains")
         # what a cut has parted meets at the cut, but for the few cells that had to be split
         pairs = found["tessellation"].shared_edges[:, :2]
         parted = grains[pairs[:, 0]] == grains[pairs[:, 1]]
         cut = np.count_nonzero(parted & (tiling.edge_joints >= 0))
         if not may_be_split and 2 * cut < np.count_nonzero(parted):
-            raise refuse("grains = others, must be parted by joints alone")
+            raise refuse("grains are not separated by joints only")
     used = tiling.edge_joints[tiling.edge_joints >= 0]
     cuts = found["joint_cuts"]  # lines of a joint may cut nothing
     bearing = {k for k, name in enumerate(names) if name not in cuts or cuts[name].cut > 0.0}
     if len(used) != joints or {*used.tolist()} != bearing:
-        raise refuse("joints = edges, must be some of each joint that has cut")
+        raise refuse("a joint that cuts has no edges in joints")
     if not lines:
         return  # of an earlier version
     if [*lines] != [*names]:
-        raise refuse(f"lines = {quoted([*lines])}, must be of the joints that spec names")
+        raise refuse(f"lines = {quoted([*lines])}, must be lines of the joints in spec")
     far = _FARTHEST * 2.0 * float(np.mean(found["discs"][:, 2]))
     cells = found["tessellation"]
     ends = cells.vertices[cells.shared_edges[:, 2:]]
     for number, name in enumerate(names):
         if not largest_bend(lines[name], ends[tiling.edge_joints == number]) <= far:
-            raise refuse(f"joint {name} = elsewhere, must lie on its lines")
+            raise refuse(f"joint {name} does not lie on its lines")
     known = all(len(one) == 1 for one in lines.values()) and len(names) <= _MOST_JOINTS
     if known and spec.joints not in _checksums(lines):
-        raise refuse("lines = others, must be those that spec names")
+        raise refuse("lines differ from the lines in spec")
 
 
 def _checksums(lines: Lines) -> Iterable[str]:
@@ -358,16 +359,16 @@ def _require_factors(found: Table) -> None:
 
     spec, strengths, minerals = found["spec"], found.get("strengths"), found.get("minerals")
     if (spec.strengths is None) is not (strengths is None):
-        raise refuse("strengths = some, must be there if spec names them")
+        raise refuse("strengths and spec do not agree")
     if strengths is not None:
         contact_strengths.checked(strengths, len(found["tessellation"].shared_edges))
         if checksum(strengths) != spec.strengths:
-            raise refuse("strengths = others, must be those that spec names")
+            raise refuse("strengths differ from the strengths in spec")
     if (spec.minerals is None) is not (minerals is None):
-        raise refuse("minerals = some, must be there if spec names them")
+        raise refuse("minerals and spec do not agree")
     if minerals is not None:
         # those of the cells that joints have cut, which were grains, or pieces of an image's grains
         grains = found.get("grains")
         least = len(minerals) if grains is None else int(grains.max()) + 1
         if spec.minerals not in checksums_of_starts(minerals, least):
-            raise refuse("minerals = others, must be those that spec names")
+            raise refuse("minerals differ from the minerals in spec")

@@ -44,7 +44,7 @@ def load(spec: AnySpec, folder: Path, progress: Progress | None = None) -> AnySp
         made = SolidSpecimen.load(folder / FILE)
     if made.spec != spec:
         raise InputError(
-            f"specimen = {str(folder / FILE)!r}, is not that of the run; put the file of that run "
-            "there"
+            f"specimen = {str(folder / FILE)!r}, is not the specimen of the run; copy the file of "
+            "the run there"
         )
     return made

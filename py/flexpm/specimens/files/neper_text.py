@@ -46,7 +46,9 @@ class Words:
                 f"{self._name}, cannot be read ({error.strerror}); give a file of Neper"
             ) from None
         except ValueError as error:
-            raise InputError(f"{self._name}, is no text of Neper: {error}") from None
+            raise InputError(
+                f"{self._name}, is not a text of Neper: {error}; give a file of Neper"
+            ) from None
         self._words = _words(text)
         self._line, self._next = 1, ""
         self._go_on()
@@ -100,7 +102,8 @@ class Words:
             value = least - 1
         if not least <= value <= most:
             raise self.refused(
-                f"{what} = {quoted(self._next)}, must be a whole number from {least} to {most}"
+                f"{what} = {quoted(self._next)}, must be a whole number from {least} to {most}; "
+                "correct it"
             )
         self._go_on()
         return value
@@ -117,7 +120,9 @@ class Words:
             self._go_on()
         found = self._next
         if not found:
-            raise self.refused(f"section = end of the file, must be {' or '.join(marks)}")
+            raise self.refused(
+                f"section = end of the file, must be {' or '.join(marks)}; complete the file"
+            )
         self._go_on()
         return found
 

@@ -72,7 +72,7 @@ def require_rules(content: Table, rules: Mapping[str, Rule], later: Sequence[str
     """
     for name, holds in rules.items():
         if name in content and not holds(content[name]):
-            raise refuse(f"{name} = {quoted(content[name])}, is none")
+            raise refuse(f"{name} = {quoted(content[name])}, is not valid")
         if name not in content and name not in later:
             raise refuse(f"{name} is missing")
 
@@ -87,6 +87,6 @@ def spec_values(given: Table, names: Sequence[str], rules: Mapping[str, Rule]) -
         if name not in names:
             raise refuse(f"spec {quoted(name)}, is unknown")
         if name in rules and not rules[name](value):
-            raise refuse(f"spec {name} = {quoted(value)}, is none")
+            raise refuse(f"spec {name} = {quoted(value)}, is not valid")
     diameters = given.get("diameters")
     return given if diameters is None else given | {"diameters": tuple(diameters)}

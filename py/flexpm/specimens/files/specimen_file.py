@@ -81,15 +81,16 @@ def read(path: Path) -> Table:
     content = load_json(path, "specimen")
     if content.get("format") == SOLID:
         raise InputError(
-            f"{name}, is a solid, must be plane; give it to what takes solids, or read it by "
-            "Specimen.load_solid"
+            f"{name}, is 3D, must be 2D; use a function for 3D specimens, or Specimen.load_solid"
         )
     if content.get("format") != _FORMAT:
-        raise InputError(f"{name}, is no specimen of this flexpm; give a file of Specimen.save")
+        raise InputError(
+            f"{name}, is not a specimen file of this version; give a file of Specimen.save"
+        )
     found = content.pop("checksum", None)
     if found != _checksum(content):
         raise InputError(
-            f"{name}, was changed since it was saved; make own cells by Specimen.from_polygons"
+            f"{name}, was changed after it was saved; for other cells use Specimen.from_polygons"
         )
     require_types(content)
     return content

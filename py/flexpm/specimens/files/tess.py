@@ -142,14 +142,15 @@ def read(path: Path) -> PlaneTess:
     dimension = tess_dimension(words)
     if dimension != 2:
         raise words.refused(
-            f"dimension = {dimension}, must be 2; cells in space are read by "
-            "Specimen.from_tess_solid"
+            f"dimension = {dimension}, must be 2; use Specimen.from_tess_solid for 3D cells"
         )
     number, seeds = cells_and_seeds(words)
     rows = vertex_rows(words)
     axes, off = plane_of(rows)
     if not off <= _ROUNDED * float(np.ptp(rows, axis=0).max()):
-        raise words.refused(f"vertices: off a plane by {off:g}, must be in one plane; cut a slice")
+        raise words.refused(
+            f"vertices: deviate from a plane by {off:g}, must lie in one plane; cut a slice"
+        )
     vertices = rows @ axes[:2].T
     pass_edges(words, len(vertices))
     words.expect("**face")
@@ -257,7 +258,7 @@ def face_ring(words: Words, face: int, vertices: int) -> list[int]:
     corners = words.whole(f"face {face}: vertices", 3, vertices)
     ring = [words.whole(f"face {face}: vertex", 1, vertices) - 1 for _ in range(corners)]
     if len({*ring}) < corners:
-        raise words.refused(f"face {face}: a vertex is there twice, must be once; correct it")
+        raise words.refused(f"face {face}: a vertex is given twice; correct it")
     words.whole(f"face {face}: edges", corners, corners)
     for _ in range(corners):
         words.whole(f"face {face}: edge", -_MOST, _MOST)

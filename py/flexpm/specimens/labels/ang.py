@@ -56,19 +56,21 @@ def read(path: Path) -> OrientationMap:
             group = _GROUPS.get(value)
             if group is None:
                 known = ", ".join(_GROUPS)
-                raise text.refused(f"Symmetry = {value}, must be one of {known}", first)
+                raise text.refused(
+                    f"Symmetry = {value}, must be one of {known}; correct the head", first
+                )
             if number in phases or number < 0:  # files without lines of numbers count from 1
                 number = len(phases) + 1
             phases[number] = Phase(name, laue.rotations(*group))
         elif key in ("GRID", "XSTEP", "YSTEP", *_COUNTS):
             head.setdefault(key, (value.rstrip("#"), first))
     if not phases:
-        raise text.refused("Symmetry is missing, must be there for each phase; complete the head")
+        raise text.refused("Symmetry is missing for a phase; complete the head")
     if "GRID" not in head:
-        raise text.refused("GRID is missing, must be in the head; complete it")
+        raise text.refused("GRID is missing in the head; complete it")
     kind, line = head["GRID"]
     if kind not in ("SqrGrid", "HexGrid"):
-        raise text.refused(f"GRID = {kind}, must be SqrGrid or HexGrid", line)
+        raise text.refused(f"GRID = {kind}, must be SqrGrid or HexGrid; correct the head", line)
     # heads of other programs may leave the steps to the points
     both = "XSTEP" in head and "YSTEP" in head
     steps = (
@@ -100,6 +102,6 @@ def _indices(text: MapText, phase: FloatArray, indexed: BoolArray, numbers: list
     if len(wrong):
         raise text.refused(
             f"point {wrong[0] + 1}: phase = {phase[wrong[0]]:g}, must be one of "
-            f"{', '.join(map(str, numbers))}, as in the head"
+            f"{', '.join(map(str, numbers))}, as in the head; correct one of them"
         )
     return np.where(indexed, found, -1)

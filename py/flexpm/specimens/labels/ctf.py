@@ -36,12 +36,12 @@ def read(path: Path) -> OrientationMap:
             break
     if found.get("JobMode", ("",))[0] == "Interactive":
         raise text.refused(
-            "JobMode = Interactive, must be Grid: points lie anywhere; give a map",
+            "JobMode = Interactive, must be Grid: its points do not form a grid; give a map",
             found["JobMode"][1],
         )
     for key in ("XStep", "YStep", "Phases"):
         if key not in found:
-            raise text.refused(f"{key} is missing, must be in the head; complete it")
+            raise text.refused(f"{key} is missing in the head; complete it")
     steps = (text.step("XStep", *found["XStep"]), text.step("YStep", *found["YStep"]))
     wide, high, deep = (
         text.count(key, *found[key]) if key in found else 0
@@ -60,7 +60,7 @@ def read(path: Path) -> OrientationMap:
     names = lines[head].split() if head < len(lines) else []
     missing = [name for name in _COLUMNS if name not in names]
     if missing:
-        raise text.refused(f"columns: {', '.join(missing)} missing, must be there", head)
+        raise text.refused(f"columns {', '.join(missing)} are missing; export them", head)
     given = [*_COLUMNS, *(["Z"] if "Z" in names else [])]
     values = text.table(head + 1, [names.index(name) for name in given])
     phase, x, y = values[:, :3].T
@@ -69,7 +69,9 @@ def read(path: Path) -> OrientationMap:
         raise text.refused(f"Z = {layers} layers, must be 1: {NO_VOLUMES}; export one slice", head)
     if len(phase) and not (np.isin(phase, np.arange(number + 1))).all():
         wrong = int(np.flatnonzero(~np.isin(phase, np.arange(number + 1)))[0])
-        raise text.refused(f"point {wrong + 1}: Phase = {phase[wrong]:g}, must be 0 to {number}")
+        raise text.refused(
+            f"point {wrong + 1}: Phase = {phase[wrong]:g}, must be 0 to {number}; correct it"
+        )
     shape = (wide, high) if wide and high else None
     grid = text.grid(x, y, Head(steps, None, shape, "XCells x YCells"))
     turned = laue.orientations(values[:, 3:6], degrees=True)
@@ -83,5 +85,7 @@ def _phase(text: MapText, line: int) -> Phase:
         raise text.refused("phase: must be lattice, angles, name and Laue group; complete it", line)
     number = text.number("Laue group", cells[3], line)
     if number not in range(1, len(_GROUPS) + 1):
-        raise text.refused(f"Laue group = {number:g}, must be 1 to {len(_GROUPS)}", line)
+        raise text.refused(
+            f"Laue group = {number:g}, must be 1 to {len(_GROUPS)}; correct it", line
+        )
     return Phase(cells[2].strip(), laue.rotations(_GROUPS[int(number) - 1], "y"))

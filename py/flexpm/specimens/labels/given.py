@@ -141,7 +141,7 @@ def whole_labels(labels: npt.ArrayLike) -> IntArray:
     if given.size > MOST_PIXELS:
         raise InputError(
             f"{_WHERE}: labels = {given.shape[0]} x {given.shape[1]} pixels, must be <= "
-            f"{MOST_PIXELS} in all; cut the image or take coarser pixels"
+            f"{MOST_PIXELS} in all; crop the image or use larger pixels"
         )
     if given.dtype.kind == "f":
         wrong = ~np.isfinite(given) | (given != np.floor(given)) | (np.abs(given) > 2.0**53)
@@ -162,7 +162,10 @@ def whole_labels(labels: npt.ArrayLike) -> IntArray:
 def _minerals(minerals: object, image: IntArray) -> dict[int, int | None]:
     """Mineral of each label; None for holes."""
     if not isinstance(minerals, Mapping):
-        raise InputError(f"{_WHERE}: minerals = {minerals!r}, must be indices by label, or None")
+        raise InputError(
+            f"{_WHERE}: minerals = {minerals!r}, must be indices by label, or None; give "
+            f"{{label: index}}"
+        )
     found: dict[int, int | None] = {}
     for label, mineral in minerals.items():
         if mineral is not None:
@@ -173,8 +176,9 @@ def _minerals(minerals: object, image: IntArray) -> dict[int, int | None]:
         if value not in found:
             row, column = divmod(at, image.shape[1])
             raise InputError(
-                f"{_WHERE}: minerals of label {value} are missing, which {count} pixels have, one "
-                f"at row {image.shape[0] - 1 - row}, column {column}; name it, None for a hole"
+                f"{_WHERE}: minerals of label {value} are missing: {count} pixels have it, one at "
+                f"row {image.shape[0] - 1 - row}, column {column}; give its mineral, or None for a "
+                "hole"
             )
     return found
 

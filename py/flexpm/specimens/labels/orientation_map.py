@@ -174,7 +174,9 @@ class MapText:
                 f"{self._name}, cannot be read ({error.strerror}); give a .ctf or .ang file"
             ) from None
         except ValueError as error:
-            raise InputError(f"{self._name}, is no text of a map: {error}") from None
+            raise InputError(
+                f"{self._name}, is not a text file of a map: {error}; give a .ctf or .ang file"
+            ) from None
 
     def refused(self, why: str, line: int | None = None) -> InputError:
         """The error of a line, counted from 0."""
@@ -266,8 +268,8 @@ class MapText:
         if len(taken) < len(x):
             point = int(np.setdiff1d(np.arange(len(x)), taken)[0])
             raise self.refused(
-                f"point {point + 1}: x, y = {x[point]:g}, {y[point]:g} um, must not be there "
-                "twice; correct the steps"
+                f"point {point + 1}: x, y = {x[point]:g}, {y[point]:g} um, is given twice; correct "
+                "the steps"
             )
         return columns, rows
 
@@ -326,7 +328,7 @@ class MapText:
         )
         if not thinned:
             raise self.refused(
-                f"{head.keys} = {asked} points, {shown} are there; export the whole map, or "
+                f"{head.keys} = {asked} points, the file has {shown}; export the whole map, or "
                 "correct the head if the map was cut out of a larger one"
             )
         told = f"{shown} by the points, not {asked} as in the head"

@@ -114,12 +114,12 @@ def _from_open(image: ImageFile) -> Picture:
     """
     if image.width * image.height > MOST_PIXELS:
         raise InputError(
-            f"image = {image.width} x {image.height} pixels, must be <= {MOST_PIXELS} in all; cut "
-            "it or take coarser pixels"
+            f"image = {image.width} x {image.height} pixels, must be <= {MOST_PIXELS} in all; crop "
+            "it or use larger pixels"
         )
     pages = getattr(image, "n_frames", 1)
     if pages > 1:
-        raise InputError(f"image = {pages} pages, must be one: {NO_VOLUMES}; save one slice")
+        raise InputError(f"image = {pages} pages, must be 1: {NO_VOLUMES}; save one slice")
     return _from_image(image.mode, np.asarray(image))
 
 
@@ -134,17 +134,18 @@ def _from_array(path: Path) -> Picture:
             magic, version, length = struct.unpack("<6sHI", file.read(12).ljust(12, b"\0"))
         # numpy would make room for all that a head of formats 2 and 3 claims
         if magic == b"\x93NUMPY" and version & 0xFF >= 2 and length > _LONGEST:
-            raise ValueError(f"head = {length} bytes, must be <= {_LONGEST}")
+            raise ValueError(f"head = {length} bytes, must be <= {_LONGEST}; save the array again")
         found = np.load(path, mmap_mode="r", allow_pickle=False)
     except _BROKEN as error:
         raise InputError(
-            f"image = {quoted(str(path))}, must be an array of numbers: {_short(error)}"
+            f"image = {quoted(str(path))}, must be an array of numbers: {_short(error)}; save it "
+            "with numpy.save"
         ) from None
     if not isinstance(found, np.ndarray) or found.ndim not in (2, 3) or found.size > MOST_PIXELS:
         shape = getattr(found, "shape", "several arrays")
         raise InputError(
             f"image = {quoted(str(path))} of shape {shape}, must be rows of labels, at most "
-            f"{MOST_PIXELS}"
+            f"{MOST_PIXELS}; save one slice, or crop it"
         )
     if found.ndim == 3:
         raise InputError(
@@ -200,7 +201,7 @@ def _label(key: str, picture: Picture) -> int:
         return int(key[1:], 16)
     if not picture.has_colours and re.fullmatch(r"-?[0-9]{1,18}", key):
         return int(key)
-    raise InputError(f"phases key = {quoted(key)}, must be {rule}, as the image has")
+    raise InputError(f"phases key = {quoted(key)}, must be {rule} as in the image; correct it")
 
 
 def _require_all(found: Mapping[int, str], picture: Picture, path: Path) -> None:

@@ -106,9 +106,7 @@ def find(
         kinds = np.where(is_hole, -1, [phases.get(v, v) for v in values.tolist()])
     counts = {"regions": int(np.count_nonzero(~is_hole))}
     if not counts["regions"]:
-        raise InputError(
-            "Specimen.from_labels: labels = all hole, must have grains; name another phase hole"
-        )
+        raise InputError("Specimen.from_labels: all labels are holes; choose another phase as hole")
     small = _Merging(regions, is_hole, kinds)
     counts["small_regions"] = small.merge(smallest, holes=False)
     rock = int(np.count_nonzero(~holes))
@@ -116,16 +114,12 @@ def find(
     counts["small_holes"] = small.merge(least, holes=True)
     image = np.where(is_hole[small.target], HOLE, small.target)[regions]
     if not (image >= 0).any():
-        raise InputError(
-            f"{_WHERE}: labels = all hole but small regions, must have grains; lower smallest"
-        )
+        raise InputError(f"{_WHERE}: all labels are holes or small regions; decrease smallest")
     counts["loose_pixels"] = _drop_loose(image)
     counts["filled_pixels"] = _fill_touching(image)
     kept, numbers = np.unique(image[image >= 0], return_inverse=True)
     if len(kept) < 2:
-        raise InputError(
-            f"{_WHERE}: labels = one region, must be two grains or more; give a larger image"
-        )
+        raise InputError(f"{_WHERE}: labels = 1 region, must be >= 2; give a larger image")
     image[image >= 0] = numbers
     return Regions(image, values[kept], counts)
 

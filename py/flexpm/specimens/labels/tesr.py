@@ -46,7 +46,10 @@ def read(path: Path) -> IntArray:
         )
     columns, rows = (words.whole(f"size {key}", 2, MOST_PIXELS) for key in "xy")
     if columns * rows > MOST_PIXELS:
-        raise words.refused(f"size = {columns} x {rows} pixels, must be <= {MOST_PIXELS} in all")
+        raise words.refused(
+            f"size = {columns} x {rows} pixels, must be <= {MOST_PIXELS} in all; use a coarser "
+            "raster"
+        )
     width, height = (words.number(f"size of a pixel {key}") for key in "xy")
     if not abs(width - height) <= _SQUARE * abs(width):
         raise words.refused(f"pixel = {width:g} x {height:g}, must be square; resample it by Neper")
@@ -55,7 +58,7 @@ def read(path: Path) -> IntArray:
         most = words.whole("cells", 1, _LARGEST_LABEL)
         section = words.skip_to("**data", "***end")
     if section == "***end":
-        raise words.refused("**data is missing, must tell the cell of each pixel; find cells first")
+        raise words.refused("**data is missing, the cell of each pixel; compute the cells first")
     labels = _cells(words, kind or words.word("data format"), columns * rows, path.parent)
     if labels.max() > most:
         raise words.refused(
@@ -69,7 +72,8 @@ def _cells(words: Words, kind: str, number: int, folder: Path) -> IntArray:
     """Cell of each pixel."""
     if kind != "ascii" and kind not in _BINARY:
         raise words.refused(
-            f"data format = {quoted(kind)}, must be ascii or one of {', '.join(_BINARY)}"
+            f"data format = {quoted(kind)}, must be ascii or one of {', '.join(_BINARY)}; convert "
+            "it with Neper"
         )
     binary, is_file = words.binary, words.section == "*file"
     if is_file:

@@ -44,7 +44,7 @@ def require_made_from(spec: SolidSpec, spheres: FloatArray, removed: int) -> Non
     """
     if spec.spheres is not None:
         if checksum(spheres) != spec.spheres:
-            raise refuse(f"spheres = others than those of the checksum {quoted(spec.spheres)}")
+            raise refuse(f"spheres do not fit the checksum {quoted(spec.spheres)}")
         return
     assert spec.diameters is not None and spec.porosity is not None
     count = call(sphere_count, spec.volume, *spec.diameters, spec.porosity)
@@ -123,7 +123,9 @@ def sphere_rows(given: npt.ArrayLike | Path | str) -> FloatArray:
     try:
         found = np.array(values, dtype=float, order="C")
     except (TypeError, ValueError):
-        raise InputError(f"{name}: not numbers, must be rows x, y, z, radius [m]") from None
+        raise InputError(
+            f"{name}: not numbers, must be rows x, y, z, radius [m]; correct it"
+        ) from None
     if found.ndim != 2 or found.shape[1] != 4:
         raise InputError(
             f"{name}: array of shape {found.shape}, must be rows x, y, z, radius [m]; correct it"

@@ -83,10 +83,12 @@ def read(path: Path) -> Table:
     name = f"specimen = {str(path)!r}"
     content = load_json(path, "specimen")
     if content.get("format") != FORMAT:
-        raise InputError(f"{name}, is no solid specimen of this flexpm; give a file of its save")
+        raise InputError(
+            f"{name}, is not a 3D specimen file of this version; give a file that its save() wrote"
+        )
     if content.pop("checksum", None) != checksum(content):
         raise InputError(
-            f"{name}, was changed since it was saved; make own spheres by Specimen.from_spheres"
+            f"{name}, was changed after it was saved; for other spheres use Specimen.from_spheres"
         )
     require_rules(content, _KEYS, ("minerals", "vertices", "faces"))
     known = [field.name for field in dataclasses.fields(SolidSpec)]

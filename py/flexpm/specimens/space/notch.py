@@ -78,8 +78,8 @@ def notched(specimen: SolidSpecimen, notches: Sequence[tuple[float, float, bool]
     """
     if specimen.given is not None:
         raise InputError(
-            f"run: notch = {notches[0][1]:g} m, must be left out for given cells; make the solid "
-            "of spheres"
+            f"run: notch = {notches[0][1]:g} m, must not be given for user-supplied cells; pack "
+            "spheres instead"
         )
     short = specimen.spec.short_edge * specimen.mean_diameter
     asked = [(float(x), float(front), bool(above)) for x, front, above in notches]

@@ -154,7 +154,7 @@ class OwnCells:
         pairs = np.array([face[:2] for face in faces], dtype=np.int32)
         found = cls(np.array(vertices, dtype=float), pairs, offsets, corners)
         if found.checksum() != spec.cells:
-            raise refuse(f"cells = others than those of the checksum {spec.cells}")
+            raise refuse(f"cells do not fit the checksum {spec.cells}")
         return found
 
     def _triangles(self) -> tuple[IntArray, IntArray, IntArray, IntArray]:

@@ -76,7 +76,10 @@ class SolidSpec:
 
     def __post_init__(self) -> None:
         if self.kind not in SIZES:
-            raise InputError(f"specimen kind = {self.kind!r}, must be one of {', '.join(SIZES)}")
+            raise InputError(
+                f"specimen kind = {self.kind!r}, must be one of {', '.join(SIZES)}; choose one of "
+                "them"
+            )
         where = f"Specimen.{self.kind}"
         for name in _ALL_SIZES:
             self._set(name, self._size(where, name))
@@ -114,8 +117,8 @@ class SolidSpec:
         """Reject given cells for a model of spheres; cells of a packing have spheres."""
         if self.cells is not None:
             raise InputError(
-                f"model = {model}, must be one of cells for a specimen of given cells; use "
-                "flexible or rigid"
+                f"model = {model}, must be flexible or rigid for user-supplied cells; use one of "
+                "them"
             )
 
     @property

@@ -118,7 +118,9 @@ def read(path: Path) -> SpaceTess:
     words = Words(path, "tess")
     dimension = tess_dimension(words)
     if dimension != 3:
-        raise words.refused(f"dimension = {dimension}, must be 3 for a solid; Specimen.from_tess")
+        raise words.refused(
+            f"dimension = {dimension}, must be 3; use Specimen.from_tess for 2D cells"
+        )
     number, seeds = plane_tess.cells_and_seeds(words)
     vertices = plane_tess.vertex_rows(words)
     plane_tess.pass_edges(words, len(vertices))
@@ -146,8 +148,8 @@ def _pairs(words: Words, cells: int, faces: int) -> IntArray:
             first, second = pairs[face - 1]
             if face == 0 or second >= 0 or first == cell - 1:
                 raise words.refused(
-                    f"polyhedron {cell}: face = {face}, must be one of two polyhedra or of one "
-                    "and the outside; correct it"
+                    f"polyhedron {cell}: face = {face}, must belong to one or two polyhedra; "
+                    "correct it"
                 )
             pairs[face - 1, int(first >= 0)] = cell - 1
     lone = np.flatnonzero(pairs[:, 0] < 0)

@@ -99,10 +99,15 @@ def calibrate(
             print(found.best.values["young"], found.met)
     """
     if not callable(measure):
-        raise InputError(f"calibrate: measure = {quoted(measure)}, must be a function")
+        raise InputError(
+            f"calibrate: measure = {quoted(measure)}, must be a function; pass it without ()"
+        )
     for name, given in (("free", free), ("targets", targets)):
         if not isinstance(given, Mapping) or not given:
-            raise InputError(f"calibrate: {name} = {quoted(given)}, must be a table with entries")
+            raise InputError(
+                f"calibrate: {name} = {quoted(given)}, must be a table with entries; give at least "
+                "one"
+            )
     folder = output_folder(out)
     model = options.get("model", "flexible")
     require_known("calibrate: model", model, list(ELASTIC_SET))
@@ -186,14 +191,17 @@ class _OwnSearch(Search):
         except InputError as error:
             if not self.history:
                 raise  # wrong from the start
-            return {name: [None] for name in names}, dict.fromkeys(names, f"refused: {error}")
+            return {name: [None] for name in names}, dict.fromkeys(names, f"rejected: {error}")
         try:
             found = self._measure(material)
         except SimulationError as error:  # a specimen that bears nothing has no measures
             why = f"the function failed ({error}); change its test"
             return {name: [None] for name in names}, dict.fromkeys(names, why)
         if not isinstance(found, Mapping):
-            raise InputError(f"calibrate: measures = {quoted(found)}, must be a table of numbers")
+            raise InputError(
+                f"calibrate: measures = {quoted(found)}, must be a table of numbers; return "
+                f"{{name: value}}"
+            )
         for name in names:
             require_known("calibrate: target", name, [*found])
         numbers = {name: _number(name, found) for name in names}
@@ -209,5 +217,7 @@ def _number(name: str, found: Mapping[str, object]) -> float | None:
     try:
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        raise InputError(f"calibrate: {name} = {quoted(value)}, must be a number") from None
+        raise InputError(
+            f"calibrate: {name} = {quoted(value)}, must be a number; return a float"
+        ) from None
     return number if math.isfinite(number) else None
