@@ -43,9 +43,10 @@ _REAL_MASSES = 1
 #: Part of the results number of runs of several minerals; 1: the loading rate follows their weakest
 #: contacts, which was that of their mean.
 _MINERALS = 1
-#: Part of the results number of runs of 3D specimens with rigid grains; 1: their contacts read the
-#: motions of the grains in place of those of nodes, which rounds in another way.
-_RIGID_SOLIDS = 1
+#: Part of the results number of runs of 3D specimens; 1: contacts of rigid grains read the motions
+#: of the grains, not those of their nodes, and the elastic start has another preconditioner. Both
+#: change the rounding.
+_SOLIDS = 1
 
 
 @dataclass(frozen=True)
@@ -216,7 +217,7 @@ def results_number(
     variant = kind.variant_in(solid=solid)
     number = 1 if variant is None else variant.results.get(model, 1)
     number += _EDGE_NORMALS * edge_normals + _REAL_MASSES * dynamic + _MINERALS * minerals
-    return number + _RIGID_SOLIDS * (solid and model == "rigid")
+    return number + _SOLIDS * solid
 
 
 def results_of(run: RunInputs) -> int:

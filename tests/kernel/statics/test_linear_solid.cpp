@@ -67,7 +67,7 @@ TEST_CASE("Linear forces and fields have the same bits on any threads", "[solids
     for (double& value : u)
         value = random.next() - 0.5;
     std::vector<double> wanted(u.size(), 0.0);
-    alone.share_among(1, { 0, static_cast<int>(alone.places.size()) });
+    alone.share_among(1);
     alone.add(u.data(), wanted.data());
     for (int threads : { 2, 3, 64 }) {
         std::vector<double> forces(u.size(), 0.0);

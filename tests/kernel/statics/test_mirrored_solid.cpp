@@ -120,7 +120,7 @@ std::vector<double> ways_under(
     const RigidSolid rigid = rigid_solid(s, solid);
     const std::vector<double> none(held.size(), 0.0);
     std::vector<double> on_grains = none;
-    rigid.gather(load, on_grains.data());
+    rigid.gather(load.data(), on_grains.data());
     return rigid.on_nodes(solve_free(rigid, held, on_grains, none).u.data());
 }
 

@@ -12,8 +12,8 @@ namespace flexpm {
 namespace {
 
 constexpr int corners = 8, size = 3 * corners;
-/// Some ten grains: fewer iterations with less cost more time for the factors.
-constexpr double nodes_in_brick = 250.0;
+/// Fewer iterations with less cost more time for the factors.
+constexpr double grains_in_brick = 10.0;
 /// Their factors take seconds.
 constexpr double most_bricks = 5000.0;
 /// Stiffness that all motions of the grid meet, relative to that on the diagonal.
@@ -49,6 +49,32 @@ std::array<Vector, corners> gradients_at(const std::array<double, 3>& at)
     return gradients;
 }
 
+Vector product(const SpaceGradient& a, Vector v)
+{
+    return { dot(a.x, v), dot(a.y, v), dot(a.z, v) };
+}
+
+SpaceGradient transposed(const SpaceGradient& a)
+{
+    return { { a.x.x, a.y.x, a.z.x }, { a.x.y, a.y.y, a.z.y }, { a.x.z, a.y.z, a.z.z } };
+}
+
+SpaceGradient product(const SpaceGradient& a, const SpaceGradient& b)
+{
+    const SpaceGradient columns = transposed(b);
+    return transposed({ product(a, columns.x), product(a, columns.y), product(a, columns.z) });
+}
+
+/// f 1 + a b^T
+SpaceGradient dyad(double f, Vector a, Vector b)
+{
+    SpaceGradient sum { a.x * b, a.y * b, a.z * b };
+    sum.x.x += f;
+    sum.y.y += f;
+    sum.z.z += f;
+    return sum;
+}
+
 using Numbers = Eigen::VectorXd;
 
 }  // namespace
@@ -57,17 +83,19 @@ struct CoarseGrid::Factors {
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> of;
 };
 
-CoarseGrid::CoarseGrid(const std::vector<Vector>& places) : edge_(1.0)
+CoarseGrid::CoarseGrid(
+    const std::vector<Vector>& nodes, const std::vector<Vector>& centres, Moves moves) :
+    edge_(1.0)
 {
-    if (places.empty()) return;
-    Vector high = low_ = places.front();
-    for (Vector p : places) {
+    if (nodes.empty()) return;
+    Vector high = low_ = nodes.front();
+    for (Vector p : nodes) {
         low_ = { std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z) };
         high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
     }
     const double sides[] = { high.x - low_.x, high.y - low_.y, high.z - low_.z };
     const double bricks =
-        std::clamp(static_cast<double>(places.size()) / nodes_in_brick, 1.0, most_bricks);
+        std::clamp(static_cast<double>(centres.size()) / grains_in_brick, 1.0, most_bricks);
     edge_ = std::cbrt(sides[0] * sides[1] * sides[2] / bricks);
     std::size_t count = 1;
     for (int axis = 0; axis < 3; ++axis) {
@@ -75,6 +103,7 @@ CoarseGrid::CoarseGrid(const std::vector<Vector>& places) : edge_(1.0)
         count *= bricks_[axis];
     }
     stiffness_.assign(count * size * size, 0.0);
+    const std::vector<Vector>& places = moves == Moves::nodes ? nodes : centres;
     seats_.reserve(places.size());
     for (Vector p : places)
         seats_.push_back(seat(p));
@@ -146,6 +175,42 @@ void CoarseGrid::add_spring(Vector place, const SpaceGradient& k)
     }
 }
 
+/// Add a spring whose ends part by shares of the motions of the corners.
+void CoarseGrid::add_spring(
+    int brick, const std::array<SpaceGradient, 8>& shares, const SpaceGradient& k)
+{
+    for (int b = 0; b < corners; ++b) {
+        const SpaceGradient forces = product(k, shares[b]);
+        for (int a = 0; a < corners; ++a)
+            add_block(brick, a, b, product(transposed(shares[a]), forces));
+    }
+}
+
+void CoarseGrid::add_spring(int grain, Vector arm, const SpaceGradient& k)
+{
+    const Seat& at = seats_[grain];
+    const auto weights = weights_at(at.from_low);
+    const auto gradients = gradients_at(at.from_low);
+    std::array<SpaceGradient, corners> shares;
+    for (int a = 0; a < corners; ++a) {
+        const Vector half = (0.5 / edge_) * gradients[a];
+        shares[a] = dyad(weights[a] + dot(half, arm), half, -arm);  // turned by half of the curl
+    }
+    add_spring(at.brick, shares, k);
+}
+
+void CoarseGrid::add_contact(Vector place, Vector branch, const SpaceGradient& k)
+{
+    const Seat at = seat(place);
+    const auto gradients = gradients_at(at.from_low);
+    std::array<SpaceGradient, corners> shares;
+    for (int a = 0; a < corners; ++a) {
+        const Vector half = (0.5 / edge_) * gradients[a];
+        shares[a] = dyad(dot(half, branch), half, branch);  // strain alone opens it
+    }
+    add_spring(at.brick, shares, k);
+}
+
 void CoarseGrid::factorize()
 {
     std::vector<Eigen::Triplet<double>> entries;
@@ -190,6 +255,35 @@ void CoarseGrid::add_motion(
     const Numbers ways = factors_->of.solve(loads);
     for_each_share(
         [&](std::size_t i, int from, double weight) { motion[i] += weight * ways[from]; });
+}
+
+std::vector<GridMotion> CoarseGrid::motions(const std::vector<GridMotion>& loads) const
+{
+    std::vector<GridMotion> found(factors_ ? loads.size() : 0);
+    if (found.empty()) return found;
+    Numbers on_grid = Numbers::Zero(unknowns());
+    const auto for_each_share = [&](auto give) {
+        for (std::size_t g = 0; g < seats_.size(); ++g) {
+            const auto on = vertices(seats_[g].brick);
+            const auto weights = weights_at(seats_[g].from_low);
+            const auto gradients = gradients_at(seats_[g].from_low);
+            for (int k = 0; k < corners; ++k)
+                give(g, 3 * on[k], weights[k], (0.5 / edge_) * gradients[k]);
+        }
+    };
+    for_each_share([&](std::size_t g, int to, double weight, Vector half) {
+        const Vector f = weight * loads[g].way + cross(loads[g].turn, half);
+        on_grid[to] += f.x;
+        on_grid[to + 1] += f.y;
+        on_grid[to + 2] += f.z;
+    });
+    const Numbers ways = factors_->of.solve(on_grid);
+    for_each_share([&](std::size_t g, int from, double weight, Vector half) {
+        const Vector u { ways[from], ways[from + 1], ways[from + 2] };
+        found[g].way = found[g].way + weight * u;
+        found[g].turn = found[g].turn + cross(half, u);
+    });
+    return found;
 }
 
 }  // namespace flexpm

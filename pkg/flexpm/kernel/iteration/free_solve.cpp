@@ -90,36 +90,31 @@ struct generic_product_impl<flexpm::FreeStiffness, Right, SparseShape, DenseShap
 namespace flexpm {
 namespace {
 
-/// Inverse blocks on the diagonal, of the free components, and smooth motions.
-class TwoLevelPreconditioner {
+/// Inverse blocks on the diagonal, of the free components, and motions that reach further.
+class LevelsPreconditioner {
 public:
-    template <class Matrix> TwoLevelPreconditioner& compute(const Matrix& matrix)
+    template <class Matrix> LevelsPreconditioner& compute(const Matrix& matrix)
     {
         blocks_ = matrix.on().forces.diagonal_blocks();
         blocks_.invert(matrix.on().held);
-        held_ = &matrix.on().held;
-        grid_ = matrix.on().forces.coarse_grid(*held_);
-        if (grid_) grid_->factorize();
+        wide_ = matrix.on().forces.wide_motions(matrix.on().held);
         return *this;
     }
-    template <class Matrix> TwoLevelPreconditioner& analyzePattern(const Matrix&) { return *this; }
-    template <class Matrix> TwoLevelPreconditioner& factorize(const Matrix& m)
-    {
-        return compute(m);
-    }
+    template <class Matrix> LevelsPreconditioner& analyzePattern(const Matrix&) { return *this; }
+    template <class Matrix> LevelsPreconditioner& factorize(const Matrix& m) { return compute(m); }
     Numbers solve(const Numbers& right) const
     {
         Numbers result(right.size());
         blocks_.multiply(right.data(), result.data());
-        if (grid_) grid_->add_motion(*held_, right.data(), result.data());
+        for (const auto& one : wide_)
+            one->add(right.data(), result.data());
         return result;
     }
     Eigen::ComputationInfo info() const { return Eigen::Success; }
 
 private:
     DiagonalBlocks blocks_ { {} };
-    std::optional<CoarseGrid> grid_;
-    const std::vector<std::uint8_t>* held_ = nullptr;
+    std::vector<std::unique_ptr<WideMotions>> wide_;
 };
 
 /// Numbers as Eigen takes them, in their place.
@@ -138,7 +133,7 @@ FreeSolution solve_free(const LinearForces& forces, const std::vector<std::uint8
     load = std::vector<double>();  // of a large solid each vector of unknowns is 0.1 GB
     on.project(right);
     const FreeStiffness matrix(on);
-    Eigen::ConjugateGradient<FreeStiffness, Eigen::Lower | Eigen::Upper, TwoLevelPreconditioner>
+    Eigen::ConjugateGradient<FreeStiffness, Eigen::Lower | Eigen::Upper, LevelsPreconditioner>
         solver;
     solver.setTolerance(balanced);
     solver.setMaxIterations(most_iterations);

@@ -3,14 +3,22 @@
 /// Sums have a fixed order, on any threads, so results have the same bits everywhere. SI units.
 #pragma once
 
-#include <flexpm/kernel/iteration/coarse_grid.hpp>
 #include <flexpm/kernel/iteration/diagonal_blocks.hpp>
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace flexpm {
+
+/// Motions that reach further than blocks on the diagonal do, with the stiffness that they meet.
+class WideMotions {
+public:
+    virtual ~WideMotions() = default;
+
+    /// Add to free unknowns the motion that forces give, which are 0 on held ones.
+    virtual void add(const double* forces, double* u) const = 0;
+};
 
 /// Linear forces of a structure whose unknowns come in threes.
 class LinearForces {
@@ -23,11 +31,13 @@ public:
     /// Blocks on the diagonal of K: of each triple, or of groups that stiff springs join.
     virtual DiagonalBlocks diagonal_blocks() const = 0;
 
-    /// Smooth motions of it, if the unknowns are displacements of nodes in space.
-    /// @param held  1 for each unknown that is held
-    virtual std::optional<CoarseGrid> coarse_grid(const std::vector<std::uint8_t>& /*held*/) const
+    /// Wide motions of it. A load moves it by all of them and by the blocks, as it does springs
+    /// one behind the other.
+    /// @param held  1 for each unknown that is held; outlives what is returned
+    virtual std::vector<std::unique_ptr<WideMotions>> wide_motions(
+        const std::vector<std::uint8_t>& /*held*/) const
     {
-        return std::nullopt;
+        return {};
     }
 };
 

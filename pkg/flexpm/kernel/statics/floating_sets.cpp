@@ -56,11 +56,6 @@ DiagonalBlocks FloatingForces::diagonal_blocks() const
     return blocks;
 }
 
-std::optional<CoarseGrid> FloatingForces::coarse_grid(const std::vector<std::uint8_t>& held) const
-{
-    return structure_.coarse_grid({ held.begin(), held.begin() + static_cast<long>(unknowns_) });
-}
-
 FreeSolution solve_floating(const LinearForces& structure, const std::vector<FloatingNodes>& groups,
     std::vector<std::uint8_t> held, std::vector<double> load, std::vector<double> guess)
 {

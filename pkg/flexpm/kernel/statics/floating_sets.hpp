@@ -25,7 +25,11 @@ public:
 
     void add(const double* u, double* forces) const override;
     DiagonalBlocks diagonal_blocks() const override;
-    std::optional<CoarseGrid> coarse_grid(const std::vector<std::uint8_t>& held) const override;
+    std::vector<std::unique_ptr<WideMotions>> wide_motions(
+        const std::vector<std::uint8_t>& held) const override
+    {
+        return structure_.wide_motions(held);  // the groups' translations are blocks alone
+    }
 
 private:
     const LinearForces& structure_;

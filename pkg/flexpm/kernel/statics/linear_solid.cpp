@@ -23,21 +23,6 @@ Vector spring_force(const Face& face, const Spring& s, Vector jump)
                 * face.normal);
 }
 
-/// Forces of a spring for unit jumps, by rows.
-SpaceGradient spring_block(const Face& face, const Spring& s)
-{
-    return { spring_force(face, s, { 1.0, 0.0, 0.0 }), spring_force(face, s, { 0.0, 1.0, 0.0 }),
-        spring_force(face, s, { 0.0, 0.0, 1.0 }) };
-}
-
-SpaceGradient press_block(const LinearSolid::Press& p)
-{
-    const Vector n = (p.stiffness - p.sliding) * p.normal;
-    return { n.x * p.normal + Vector { p.sliding, 0.0, 0.0 },
-        n.y * p.normal + Vector { 0.0, p.sliding, 0.0 },
-        n.z * p.normal + Vector { 0.0, 0.0, p.sliding } };
-}
-
 Vector product(const SpaceGradient& k, Vector v)
 {
     return { dot(k.x, v), dot(k.y, v), dot(k.z, v) };
@@ -54,6 +39,20 @@ SpaceGradient turning_block(const SpaceGradient& k, Vector arm, double radius)
 }
 
 }  // namespace
+
+SpaceGradient spring_block(const LinearSolid::Face& face, const LinearSolid::Spring& s)
+{
+    return { spring_force(face, s, { 1.0, 0.0, 0.0 }), spring_force(face, s, { 0.0, 1.0, 0.0 }),
+        spring_force(face, s, { 0.0, 0.0, 1.0 }) };
+}
+
+SpaceGradient press_block(const LinearSolid::Press& p)
+{
+    const Vector n = (p.stiffness - p.sliding) * p.normal;
+    return { n.x * p.normal + Vector { p.sliding, 0.0, 0.0 },
+        n.y * p.normal + Vector { 0.0, p.sliding, 0.0 },
+        n.z * p.normal + Vector { 0.0, 0.0, p.sliding } };
+}
 
 LinearSolid::Spring spring_at(double area, std::vector<double> shares)
 {
@@ -78,7 +77,7 @@ LinearSolid::Share LinearSolid::share_of(int node, int end_node) const
     return own;
 }
 
-void LinearSolid::share_among(int threads, const std::vector<int>& first_nodes)
+void LinearSolid::share_among(int threads)
 {
     shares_.clear();
     int node = 0;
@@ -237,38 +236,11 @@ DiagonalBlocks LinearSolid::diagonal_blocks() const
     return blocks;
 }
 
-std::optional<CoarseGrid> LinearSolid::coarse_grid(const std::vector<std::uint8_t>& held) const
-{
-    CoarseGrid grid(places);
-    // volumes lie at the nodes, so that no motion of a node is without a stiffness; contacts do not
-    // open in a smooth motion
-    std::vector<double> volumes(places.size(), 0.0);
-    std::vector<int> kind(places.size(), 0);
-    for (const Element& e : elements) {
-        for (int k = 0; k < 4; ++k) {
-            const int n = e.nodes[k];
-            volumes[n] += 0.25 * e.shape.volume;
-            kind[n] = e.kind;
-            const std::uint8_t* on = held.data() + 3 * n;
-            if (!on[0] && !on[1] && !on[2]) continue;
-            const SpaceGradient own = stiffness_block(e.shape, kinds[e.kind], k, k);
-            grid.add_spring(places[n],
-                { { on[0] ? own.x.x : 0.0, 0.0, 0.0 }, { 0.0, on[1] ? own.y.y : 0.0, 0.0 },
-                    { 0.0, 0.0, on[2] ? own.z.z : 0.0 } });
-        }
-    }
-    for (std::size_t n = 0; n < places.size(); ++n)
-        if (volumes[n] > 0.0) grid.add_volume(places[n], volumes[n], kinds[kind[n]]);
-    for (const Press& p : presses)
-        grid.add_spring(place_of(p), press_block(p));
-    return grid;
-}
-
-void RigidSolid::gather(const std::vector<double>& on_nodes, double* forces) const
+void RigidSolid::gather(const double* on_nodes, double* forces) const
 {
     for (int n = 0; n < static_cast<int>(grain.size()); ++n) {
         const int g = grain[n];
-        const Vector force = triple_at(on_nodes.data(), n);
+        const Vector force = triple_at(on_nodes, n);
         add_triple(forces, 2 * g, force);
         const Vector moment = cross(solid.places[n] - centres[g], force);
         add_triple(forces, 2 * g + 1, (1.0 / radii[g]) * moment);
@@ -278,11 +250,7 @@ void RigidSolid::gather(const std::vector<double>& on_nodes, double* forces) con
 std::vector<double> RigidSolid::on_nodes(const double* u) const
 {
     std::vector<double> ways(3 * grain.size(), 0.0);
-    for (int n = 0; n < static_cast<int>(grain.size()); ++n) {
-        const int g = grain[n];
-        const Vector turn = (1.0 / radii[g]) * triple_at(u, 2 * g + 1);
-        add_triple(ways.data(), n, triple_at(u, 2 * g) + cross(turn, solid.places[n] - centres[g]));
-    }
+    for_each_node(u, [&](int n, Vector way) { add_triple(ways.data(), n, way); });
     return ways;
 }
 
@@ -290,7 +258,7 @@ void RigidSolid::add(const double* u, double* forces) const
 {
     std::vector<double> sums(3 * grain.size(), 0.0);
     solid.add(on_nodes(u).data(), sums.data());
-    gather(sums, forces);
+    gather(sums.data(), forces);
 }
 
 DiagonalBlocks RigidSolid::diagonal_blocks() const
@@ -315,6 +283,8 @@ DiagonalBlocks RigidSolid::diagonal_blocks() const
     }
     for (const LinearSolid::Press& p : solid.presses)
         add_to(grain[p.nodes[0]], solid.place_of(p), press_block(p));
+    for (const Hold& h : holds)
+        add_to(grain[h.node], solid.places[h.node], h.k);
     return blocks;
 }
 

@@ -45,22 +45,23 @@ struct LinearSolid : LinearForces {
     };
 
     std::vector<PlaneStiffness> kinds;  ///< of elements
-    std::vector<Vector> places;         ///< of nodes
+    std::vector<Vector> places;         ///< of nodes, grain after grain, the centre last
+    std::vector<int> first_nodes;       ///< of grains, whose elements follow each other, too; then
+                                        ///< the number of nodes
     std::vector<Element> elements;
     std::vector<Face> faces;
     std::vector<Press> presses;
 
     /// Let threads share add(). Its sums keep their bits: a thread has the forces on nodes of its
     /// own grains alone, in the order in which one thread adds them.
-    ///
-    /// @param first_nodes  those of grains, whose elements follow each other, too; then the number
-    ///         of nodes
-    void share_among(int threads, const std::vector<int>& first_nodes);
+    void share_among(int threads);
 
     /// Unknowns are the displacements of the nodes.
     void add(const double* u, double* forces) const override;
     DiagonalBlocks diagonal_blocks() const override;
-    std::optional<CoarseGrid> coarse_grid(const std::vector<std::uint8_t>& held) const override;
+    /// Smooth motions that open no contact, and those in which grains stay rigid.
+    std::vector<std::unique_ptr<WideMotions>> wide_motions(
+        const std::vector<std::uint8_t>& held) const override;
 
     /// Stiffness of the contacts of plates, by their numbers, against what is free of them.
     std::vector<PlateStiffness> plate_stiffness() const;
@@ -110,6 +111,11 @@ private:
 /// Spring of a point, by the shares of the corners in its place.
 LinearSolid::Spring spring_at(double area, std::vector<double> shares);
 
+/// Forces of a spring for unit jumps, by rows [N/m].
+SpaceGradient spring_block(const LinearSolid::Face& face, const LinearSolid::Spring& s);
+/// The same of a contact of a plate.
+SpaceGradient press_block(const LinearSolid::Press& p);
+
 inline Vector triple_at(const double* u, int node)
 {
     return { u[3 * node], u[3 * node + 1], u[3 * node + 2] };
@@ -123,19 +129,39 @@ inline void add_triple(double* u, int node, Vector v)
 
 /// Grains that are rigid: unknowns of each are the way of its centre and its turn times its radius.
 struct RigidSolid : LinearForces {
+    /// What holds a node of a grain apart from contacts and plates, by rows [N/m]. It has a part in
+    /// blocks and wide motions alone.
+    struct Hold {
+        int node;
+        SpaceGradient k;
+    };
+
     const LinearSolid& solid;
     std::vector<int> grain;       ///< of each node
     std::vector<Vector> centres;  ///< of grains
     std::vector<double> radii;
+    std::vector<Hold> holds;
 
     explicit RigidSolid(const LinearSolid& of) : solid(of) { }
     void add(const double* u, double* forces) const override;
     DiagonalBlocks diagonal_blocks() const override;
+    /// Smooth motions.
+    std::vector<std::unique_ptr<WideMotions>> wide_motions(
+        const std::vector<std::uint8_t>& held) const override;
 
     /// Displacements of the nodes, from the unknowns.
     std::vector<double> on_nodes(const double* u) const;
     /// Forces on the unknowns, from those on nodes.
-    void gather(const std::vector<double>& on_nodes, double* forces) const;
+    void gather(const double* on_nodes, double* forces) const;
+    /// Call visit(node, its displacement), from the unknowns.
+    template <class Visit> void for_each_node(const double* u, Visit visit) const
+    {
+        for (int n = 0; n < static_cast<int>(grain.size()); ++n) {
+            const int g = grain[n];
+            const Vector turn = (1.0 / radii[g]) * triple_at(u, 2 * g + 1);
+            visit(n, triple_at(u, 2 * g) + cross(turn, solid.places[n] - centres[g]));
+        }
+    }
 };
 
 }  // namespace flexpm

@@ -121,7 +121,8 @@ SurfacedSolid make_grains(
             face.springs.push_back(spring_at(p.area, p.shares));
         solid.faces.push_back(std::move(face));
     }
-    solid.share_among(1, { 0, static_cast<int>(solid.places.size()) });
+    solid.first_nodes.assign(meshes.node_offsets.begin(), meshes.node_offsets.end());
+    solid.share_among(1);
     return g;
 }
 

@@ -312,7 +312,7 @@ SolidField field_of_bodies(const SolidState& s, const SolidDrive& drive, const S
     for (int g = 0; how.rises && g < s.grains.count; ++g)
         guess[6 * g + 2] = rigid.centres[g].z - how.low;
     std::vector<double> load(guess.size(), 0.0);
-    rigid.gather(push_of(solid, drive), load.data());
+    rigid.gather(push_of(solid, drive).data(), load.data());
     std::vector<std::uint8_t> held(guess.size(), 0);
     for (int g = 0; g < s.grains.count; ++g)
         for (int axis = 0; axis < 3; ++axis)
@@ -373,7 +373,8 @@ LinearSolid linear_solid(const SolidState& s, int threads)
     add_elements(s, numbers, solid);
     add_faces(s, numbers, solid);
     add_presses(s, numbers, solid);
-    solid.share_among(threads, numbers.first());
+    solid.first_nodes = numbers.first();
+    solid.share_among(threads);
     return solid;
 }
 

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  Wide motions of solids of bonded grains. A smooth load strains grains and opens contacts, as
+/// springs one behind the other: one coarse grid strains all, another one carries rigid grains, which
+/// open contacts. Between the grids and the blocks of nodes stands each grain as a rigid body, which
+/// compliant contacts let move more than nodes know.
+#include <flexpm/kernel/iteration/coarse_grid.hpp>
+#include <flexpm/kernel/statics/linear_solid.hpp>
+
+namespace flexpm {
+namespace {
+
+using Held = std::vector<std::uint8_t>;
+
+/// Add to what is not held of a triple.
+void add_free(double* u, const Held& held, int triple, Vector v)
+{
+    const double along[] = { v.x, v.y, v.z };
+    for (int axis = 0; axis < 3; ++axis)
+        if (!held[3 * triple + axis]) u[3 * triple + axis] += along[axis];
+}
+
+/// What elements resist by as their nodes move against held ones.
+std::vector<RigidSolid::Hold> holds_of(const LinearSolid& solid, const Held& held)
+{
+    std::vector<RigidSolid::Hold> holds;
+    for (const LinearSolid::Element& e : solid.elements) {
+        for (int k = 0; k < 4; ++k) {
+            const std::uint8_t* on = held.data() + 3 * e.nodes[k];
+            if (!on[0] && !on[1] && !on[2]) continue;
+            const SpaceGradient own = stiffness_block(e.shape, solid.kinds[e.kind], k, k);
+            holds.push_back({ e.nodes[k],
+                { { on[0] ? own.x.x : 0.0, 0.0, 0.0 }, { 0.0, on[1] ? own.y.y : 0.0, 0.0 },
+                    { 0.0, 0.0, on[2] ? own.z.z : 0.0 } } });
+        }
+    }
+    return holds;
+}
+
+/// The same grains, as if they were rigid.
+RigidSolid as_rigid(const LinearSolid& solid, const Held& held)
+{
+    RigidSolid rigid(solid);
+    for (std::size_t g = 0; g + 1 < solid.first_nodes.size(); ++g) {
+        const int first = solid.first_nodes[g], end = solid.first_nodes[g + 1];
+        rigid.grain.insert(rigid.grain.end(), end - first, static_cast<int>(g));
+        rigid.centres.push_back(solid.places[end - 1]);
+        rigid.radii.push_back(norm(solid.places[first] - rigid.centres.back()));
+    }
+    rigid.holds = holds_of(solid, held);
+    return rigid;
+}
+
+CoarseGrid straining_grid(const LinearSolid& solid, const RigidSolid& rigid)
+{
+    CoarseGrid grid(solid.places, rigid.centres, CoarseGrid::Moves::nodes);
+    // volumes lie at the nodes, so that no motion of a node is without a stiffness
+    std::vector<double> volumes(solid.places.size(), 0.0);
+    std::vector<int> kind(volumes.size(), 0);
+    for (const LinearSolid::Element& e : solid.elements) {
+        for (int n : e.nodes) {
+            volumes[n] += 0.25 * e.shape.volume;
+            kind[n] = e.kind;
+        }
+    }
+    for (std::size_t n = 0; n < volumes.size(); ++n)
+        if (volumes[n] > 0.0) grid.add_volume(solid.places[n], volumes[n], solid.kinds[kind[n]]);
+    for (const RigidSolid::Hold& h : rigid.holds)
+        grid.add_spring(solid.places[h.node], h.k);
+    for (const LinearSolid::Press& p : solid.presses)
+        grid.add_spring(solid.place_of(p), press_block(p));
+    grid.factorize();
+    return grid;
+}
+
+CoarseGrid opening_grid(const RigidSolid& rigid)
+{
+    const LinearSolid& solid = rigid.solid;
+    CoarseGrid grid(solid.places, rigid.centres, CoarseGrid::Moves::grains);
+    for (const LinearSolid::Face& face : solid.faces) {
+        const auto& [a, b] = face.nodes;
+        const Vector branch =
+            rigid.centres[rigid.grain[b.front()]] - rigid.centres[rigid.grain[a.front()]];
+        for (const LinearSolid::Spring& s : face.springs) {
+            Vector place;
+            for (int k = 0; k < static_cast<int>(a.size()); ++k)
+                place = place + s.share(k) * solid.places[a[k]];
+            grid.add_contact(place, branch, spring_block(face, s));
+        }
+    }
+    const auto hold = [&](int grain, Vector place, const SpaceGradient& k) {
+        grid.add_spring(grain, place - rigid.centres[grain], k);
+    };
+    for (const RigidSolid::Hold& h : rigid.holds)
+        hold(rigid.grain[h.node], solid.places[h.node], h.k);
+    for (const LinearSolid::Press& p : solid.presses)
+        hold(rigid.grain[p.nodes.front()], solid.place_of(p), press_block(p));
+    grid.factorize();
+    return grid;
+}
+
+/// Smooth motions of nodes, which open no contact.
+class SmoothNodes : public WideMotions {
+public:
+    SmoothNodes(CoarseGrid grid, const Held& held) : grid_(std::move(grid)), held_(held) { }
+    void add(const double* forces, double* u) const override { grid_.add_motion(held_, forces, u); }
+
+private:
+    CoarseGrid grid_;
+    const Held& held_;
+};
+
+/// Smooth motions of rigid grains, which open contacts.
+class SmoothGrains : public WideMotions {
+public:
+    SmoothGrains(const RigidSolid& rigid, const Held& held) :
+        rigid_(rigid),
+        held_(held),
+        grid_(opening_grid(rigid))
+    {
+    }
+    void add(const double* forces, double* u) const override
+    {
+        std::vector<GridMotion> loads;
+        loads.reserve(rigid_.centres.size());
+        for (int g = 0; g < static_cast<int>(rigid_.centres.size()); ++g)
+            loads.push_back(
+                { triple_at(forces, 2 * g), rigid_.radii[g] * triple_at(forces, 2 * g + 1) });
+        const std::vector<GridMotion> motions = grid_.motions(loads);
+        for (int g = 0; g < static_cast<int>(motions.size()); ++g) {
+            add_free(u, held_, 2 * g, motions[g].way);
+            add_free(u, held_, 2 * g + 1, rigid_.radii[g] * motions[g].turn);
+        }
+    }
+
+private:
+    const RigidSolid& rigid_;
+    const Held& held_;
+    CoarseGrid grid_;
+};
+
+/// Motions in which deformable grains stay rigid: of each alone, and smooth ones.
+class RigidMotions : public WideMotions {
+public:
+    RigidMotions(RigidSolid rigid, const Held& held) :
+        rigid_(std::move(rigid)),
+        held_(held),
+        loose_(6 * rigid_.centres.size(), 0),
+        blocks_(rigid_.diagonal_blocks()),
+        smooth_(rigid_, loose_)
+    {
+        const std::vector<double>& k = blocks_.values();
+        for (std::size_t i = 0; i < loose_.size(); ++i) {
+            const double* block = k.data() + 9 * (i / 3);
+            loose_[i] = block[0] + block[4] + block[8] > 0.0 ? 0 : 1;
+        }
+        blocks_.invert(loose_);
+    }
+    void add(const double* forces, double* u) const override
+    {
+        std::vector<double> on(loose_.size(), 0.0), motion(on.size());
+        rigid_.gather(forces, on.data());
+        for (std::size_t i = 0; i < on.size(); ++i)
+            if (loose_[i]) on[i] = 0.0;
+        blocks_.multiply(on.data(), motion.data());
+        smooth_.add(on.data(), motion.data());
+        rigid_.for_each_node(motion.data(), [&](int n, Vector way) { add_free(u, held_, n, way); });
+    }
+
+private:
+    RigidSolid rigid_;
+    const Held& held_;
+    Held loose_;  ///< 1 for unknowns of grains that nothing resists
+    DiagonalBlocks blocks_;
+    SmoothGrains smooth_;
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<WideMotions>> LinearSolid::wide_motions(const Held& held) const
+{
+    std::vector<std::unique_ptr<WideMotions>> found;
+    RigidSolid rigid = as_rigid(*this, held);
+    found.push_back(std::make_unique<SmoothNodes>(straining_grid(*this, rigid), held));
+    found.push_back(std::make_unique<RigidMotions>(std::move(rigid), held));
+    return found;
+}
+
+std::vector<std::unique_ptr<WideMotions>> RigidSolid::wide_motions(const Held& held) const
+{
+    std::vector<std::unique_ptr<WideMotions>> found;
+    found.push_back(std::make_unique<SmoothGrains>(*this, held));
+    return found;
+}
+
+}  // namespace flexpm
