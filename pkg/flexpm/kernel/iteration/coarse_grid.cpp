@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/iteration/coarse_grid.hpp>
 
+#include <flexpm/kernel/fem/gradient_products.hpp>
+
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
 
@@ -47,22 +49,6 @@ std::array<Vector, corners> gradients_at(const std::array<double, 3>& at)
         gradients[k] = { along[0], along[1], along[2] };
     }
     return gradients;
-}
-
-Vector product(const SpaceGradient& a, Vector v)
-{
-    return { dot(a.x, v), dot(a.y, v), dot(a.z, v) };
-}
-
-SpaceGradient transposed(const SpaceGradient& a)
-{
-    return { { a.x.x, a.y.x, a.z.x }, { a.x.y, a.y.y, a.z.y }, { a.x.z, a.y.z, a.z.z } };
-}
-
-SpaceGradient product(const SpaceGradient& a, const SpaceGradient& b)
-{
-    const SpaceGradient columns = transposed(b);
-    return transposed({ product(a, columns.x), product(a, columns.y), product(a, columns.z) });
 }
 
 /// f 1 + a b^T

@@ -2,6 +2,8 @@
 #include <flexpm/kernel/statics/linear_solid.hpp>
 
 #include <flexpm/kernel/core/thread_team.hpp>
+#include <flexpm/kernel/fem/gradient_products.hpp>
+#include <flexpm/kernel/statics/wide_motions.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -21,11 +23,6 @@ Vector spring_force(const Face& face, const Spring& s, Vector jump)
         * (face.shear_stiffness * jump
             + ((face.normal_stiffness - face.shear_stiffness) * dot(face.normal, jump))
                 * face.normal);
-}
-
-Vector product(const SpaceGradient& k, Vector v)
-{
-    return { dot(k.x, v), dot(k.y, v), dot(k.z, v) };
 }
 
 /// Stiffness against a turn, times the radius, of what moves by it as turn x arm.
@@ -236,6 +233,12 @@ DiagonalBlocks LinearSolid::diagonal_blocks() const
     return blocks;
 }
 
+std::vector<std::unique_ptr<WideMotions>> LinearSolid::wide_motions(
+    const std::vector<std::uint8_t>& held) const
+{
+    return wide_motions_of(*this, held);
+}
+
 void RigidSolid::gather(const double* on_nodes, double* forces) const
 {
     for (int n = 0; n < static_cast<int>(grain.size()); ++n) {
@@ -286,6 +289,12 @@ DiagonalBlocks RigidSolid::diagonal_blocks() const
     for (const Hold& h : holds)
         add_to(grain[h.node], solid.places[h.node], h.k);
     return blocks;
+}
+
+std::vector<std::unique_ptr<WideMotions>> RigidSolid::wide_motions(
+    const std::vector<std::uint8_t>& held) const
+{
+    return wide_motions_of(*this, held);
 }
 
 }  // namespace flexpm

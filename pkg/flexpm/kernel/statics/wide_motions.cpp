@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Wide motions of solids of bonded grains. A smooth load strains grains and opens contacts, as
-/// springs one behind the other: one coarse grid strains all, another one carries rigid grains, which
-/// open contacts. Between the grids and the blocks of nodes stands each grain as a rigid body, which
-/// compliant contacts let move more than nodes know.
+#include <flexpm/kernel/statics/wide_motions.hpp>
+
 #include <flexpm/kernel/iteration/coarse_grid.hpp>
-#include <flexpm/kernel/statics/linear_solid.hpp>
+
+#include <utility>
 
 namespace flexpm {
 namespace {
@@ -176,19 +175,20 @@ private:
 
 }  // namespace
 
-std::vector<std::unique_ptr<WideMotions>> LinearSolid::wide_motions(const Held& held) const
+std::vector<std::unique_ptr<WideMotions>> wide_motions_of(
+    const LinearSolid& solid, const Held& held)
 {
     std::vector<std::unique_ptr<WideMotions>> found;
-    RigidSolid rigid = as_rigid(*this, held);
-    found.push_back(std::make_unique<SmoothNodes>(straining_grid(*this, rigid), held));
+    RigidSolid rigid = as_rigid(solid, held);
+    found.push_back(std::make_unique<SmoothNodes>(straining_grid(solid, rigid), held));
     found.push_back(std::make_unique<RigidMotions>(std::move(rigid), held));
     return found;
 }
 
-std::vector<std::unique_ptr<WideMotions>> RigidSolid::wide_motions(const Held& held) const
+std::vector<std::unique_ptr<WideMotions>> wide_motions_of(const RigidSolid& rigid, const Held& held)
 {
     std::vector<std::unique_ptr<WideMotions>> found;
-    found.push_back(std::make_unique<SmoothGrains>(*this, held));
+    found.push_back(std::make_unique<SmoothGrains>(rigid, held));
     return found;
 }
 
