@@ -79,12 +79,15 @@ CoarseGrid opening_grid(const RigidSolid& rigid)
         const auto& [a, b] = face.nodes;
         const Vector branch =
             rigid.centres[rigid.grain[b.front()]] - rigid.centres[rigid.grain[a.front()]];
+        Vector middle;
+        LinearSolid::Spring whole { 0.0, -1, {} };
         for (const LinearSolid::Spring& s : face.springs) {
-            Vector place;
+            whole.area += s.area;
             for (int k = 0; k < static_cast<int>(a.size()); ++k)
-                place = place + s.share(k) * solid.places[a[k]];
-            grid.add_contact(place, branch, spring_block(face, s));
+                middle = middle + s.area * s.share(k) * solid.places[a[k]];
         }
+        if (!(whole.area > 0.0)) continue;
+        grid.add_contact((1.0 / whole.area) * middle, branch, spring_block(face, whole));
     }
     const auto hold = [&](int grain, Vector place, const SpaceGradient& k) {
         grid.add_spring(grain, place - rigid.centres[grain], k);
