@@ -36,7 +36,7 @@ public:
     /// Add what holds a rigid grain there, by rows [N/m].
     /// @param arm  from its centre [m]
     void add_spring(int grain, Vector arm, const SpaceGradient& k);
-    /// Add a contact of rigid grains, by rows [N/m].
+    /// Add a point of a contact of rigid grains, by rows [N/m].
     /// @param branch  from the centre of one grain to that of the other [m]
     void add_contact(Vector place, Vector branch, const SpaceGradient& k);
 

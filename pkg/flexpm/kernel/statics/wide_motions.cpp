@@ -8,6 +8,10 @@
 namespace flexpm {
 namespace {
 
+/// Contacts so many times as stiff as grains open little: rigid motions would save fewer iterations
+/// than they cost.
+constexpr double stiff_contacts = 4.0;
+
 using Held = std::vector<std::uint8_t>;
 
 /// Add to what is not held of a triple.
@@ -49,6 +53,26 @@ RigidSolid as_rigid(const LinearSolid& solid, const Held& held)
     return rigid;
 }
 
+/// Stiffness of contacts relative to that of grains, both against the strain of the whole solid [-].
+double relative_stiffness(const RigidSolid& rigid)
+{
+    const LinearSolid& solid = rigid.solid;
+    double of_contacts = 0.0, of_grains = 0.0;
+    for (const LinearSolid::Face& face : solid.faces) {
+        const auto centre = [&](int side) {
+            return rigid.centres[rigid.grain[face.nodes[side][0]]];
+        };
+        const Vector branch = centre(1) - centre(0);
+        for (const LinearSolid::Spring& s : face.springs)
+            of_contacts += s.area * (face.normal_stiffness + 2.0 * face.shear_stiffness) / 3.0
+                * dot(branch, branch);
+    }
+    for (const LinearSolid::Element& e : solid.elements)
+        of_grains +=
+            e.shape.volume * (solid.kinds[e.kind].normal + 2.0 * solid.kinds[e.kind].shear);
+    return of_contacts / of_grains;
+}
+
 CoarseGrid straining_grid(const LinearSolid& solid, const RigidSolid& rigid)
 {
     CoarseGrid grid(solid.places, rigid.centres, CoarseGrid::Moves::nodes);
@@ -79,15 +103,12 @@ CoarseGrid opening_grid(const RigidSolid& rigid)
         const auto& [a, b] = face.nodes;
         const Vector branch =
             rigid.centres[rigid.grain[b.front()]] - rigid.centres[rigid.grain[a.front()]];
-        Vector middle;
-        LinearSolid::Spring whole { 0.0, -1, {} };
         for (const LinearSolid::Spring& s : face.springs) {
-            whole.area += s.area;
+            Vector place;
             for (int k = 0; k < static_cast<int>(a.size()); ++k)
-                middle = middle + s.area * s.share(k) * solid.places[a[k]];
+                place = place + s.share(k) * solid.places[a[k]];
+            grid.add_contact(place, branch, spring_block(face, s));
         }
-        if (!(whole.area > 0.0)) continue;
-        grid.add_contact((1.0 / whole.area) * middle, branch, spring_block(face, whole));
     }
     const auto hold = [&](int grain, Vector place, const SpaceGradient& k) {
         grid.add_spring(grain, place - rigid.centres[grain], k);
@@ -184,7 +205,8 @@ std::vector<std::unique_ptr<WideMotions>> wide_motions_of(
     std::vector<std::unique_ptr<WideMotions>> found;
     RigidSolid rigid = as_rigid(solid, held);
     found.push_back(std::make_unique<SmoothNodes>(straining_grid(solid, rigid), held));
-    found.push_back(std::make_unique<RigidMotions>(std::move(rigid), held));
+    if (relative_stiffness(rigid) < stiff_contacts)
+        found.push_back(std::make_unique<RigidMotions>(std::move(rigid), held));
     return found;
 }
 
