@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import sys
 import warnings
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from typing import TypeVar
 
 from .errors import InputError
@@ -28,6 +28,7 @@ ATTRIBUTES = {
     "RigReadings": {"laid": "layout"},
     "RigPart": {"place": "position"},
     "Specimen": {"joint_bends": "joint_deviations"},
+    "Model": {"joint_bend": "joint_deviation"},
     "SolidSpecimen": {"joint_bends": "joint_deviations"},
     "Result": {
         "late_modulus": "tangent_modulus_ratio",
@@ -111,10 +112,21 @@ class OldName:
 class Renamed(dict[str, Value]):
     """A table that has its values by their old names, too."""
 
-    def __init__(self, values: Mapping[str, Value], names: Mapping[str, str]) -> None:
+    def __init__(
+        self,
+        values: Mapping[str, Value] | Iterable[tuple[str, Value]] = (),
+        names: Mapping[str, str] | None = None,
+    ) -> None:
         """Take values by their new names, and the new names of the old ones."""
         super().__init__(values)
-        self._names = names
+        self._names = names or {}
+
+    def get(self, key: str, default: Value | None = None) -> Value | None:  # type: ignore[override]
+        """Return a value by either of its names, or the default."""
+        try:
+            return self[key]
+        except KeyError:
+            return default
 
     def __missing__(self, key: str) -> Value:
         new = self._names.get(key)

@@ -151,9 +151,10 @@ class Progress:
     def _line(self) -> str:
         """The time since the start, the amount that is done, and of about how much, in a line."""
         since = duration(time.monotonic() - self._begin)
-        if self._last is None:
+        last = self._last  # of which the other thread may make None meanwhile
+        if last is None:
             return f"progress after {since}: working"
-        done, expected, text = self._last
+        done, expected, text = last
         share = f", {100.0 * done / expected:.0f} %" if 0.0 <= done <= expected > 0.0 else ""
         amount = f"{done:.0f} of about {max(done, expected):.0f}{self._unit}{share}"
         return f"progress after {since}: {text}, {amount}"
@@ -171,5 +172,6 @@ class Progress:
     ) -> None:
         self._over.set()
         if self._lined:
-            self._writer.join()  # else a line that was due just now would come after the end
+            # a line that is due now comes before the end, unless nobody reads it
+            self._writer.join(timeout=1.0)
         self.close()

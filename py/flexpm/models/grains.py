@@ -21,6 +21,7 @@ from ..errors import InputError, SimulationError
 from ..files import Table
 from ..materials.material import Material
 from ..materials.material import load as load_material
+from ..renamed import with_old_names
 from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
 from ..results.solids.state import AnySnapshot, SolidSnapshot
@@ -47,6 +48,7 @@ from .solids import elastic_of_solid, snapshot_of, solver_of
 Engine = TypeVar("Engine", bound=wrapper.Engine)
 
 
+@with_old_names
 @dataclass
 class Model:
     """A specimen in YADE's scene; made by :func:`flexpm.build`.

@@ -361,6 +361,8 @@ class Result(Shown):
         for name in OF_SOLIDS:
             if content[name] is None:
                 del content[name]
+        if isinstance(sets := content["networks"], dict):
+            content["networks"] = {name: Renamed(one, NETWORKS) for name, one in sets.items()}
         whole = content | {"warnings": self.warnings, "inputs": inputs}
         return Renamed(whole, ATTRIBUTES["Result"])
 

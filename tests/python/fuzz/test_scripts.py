@@ -131,7 +131,7 @@ ENDS = st.one_of(
         st.just("end"),
         st.just("elastic"),
         st.tuples(st.none() | VALUE),
-        st.fixed_dictionaries({"way": st.sampled_from([0.0, 1e-7]) | ANY, "load": VALUE}),
+        st.fixed_dictionaries({"displacement": st.sampled_from([0.0, 1e-7]) | ANY, "load": VALUE}),
     ),
     st.tuples(st.just("end"), st.just("finish"), st.just(()), st.just({})),
     st.tuples(st.just("fail"), st.just(True), LOADING),

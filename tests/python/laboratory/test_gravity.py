@@ -177,7 +177,7 @@ def test_a_solid_from_which_a_grain_falls_ends_with_one_line(model, tmp_path):
     rig = flexpm.PartRig(built, out=tmp_path, report=False)
     rig.hold(where=lambda x, y, z: z > 0.02)
     rig.settle()
-    told = "grains that have come loose under gravity = .*, the first at .*, must be 0 in 3D"
+    told = "grains detached under gravity = .*, the first at .*, must be 0 in 3D"
     assert rig.diverged
     assert re.search(told, rig.warnings[0]) and len(rig.warnings) == 1
     rig.finish()

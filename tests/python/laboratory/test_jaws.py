@@ -129,7 +129,7 @@ def test_a_smooth_jaw_of_the_discs_own_radius_leaves_it_free_to_turn():
     rig = made()
     between(rig, RADIUS, angle=0.5)
     for call in (lambda: rig.strain_to(1e-5), lambda: rig.elastic(displacement=1e-8)):
-        assert "give a jaw friction" in refusal("against turning = 0, must be at least 1; ", call)
+        assert "give a jaw friction" in refusal("against rotation = 0, must be at least 1; ", call)
 
 
 def test_the_static_solution_has_the_force_of_the_steps():

@@ -158,9 +158,9 @@ def test_supports_lie_on_the_outline_and_have_its_length():
         (lambda: rig.support((0.015, 0.0), 1e300), "support: length of a support = 1e+300 m"),
         (
             lambda: rig.support((0.015, -2e-4)),
-            "support: place of a support = (0.015, -0.0002) m",
+            "support: position of a support = (0.015, -0.0002) m",
         ),
-        (lambda: rig.support((-0.0005, 0.0)), "support: place of a support = (-0.0005, 0) m"),
+        (lambda: rig.support((-0.0005, 0.0)), "support: position of a support = (-0.0005, 0) m"),
         (lambda: rig.hold(box=((0.0, 0.0),)), "hold: box = ((0.0, 0.0),), must be two opposite"),
         (lambda: rig.hold(box=[(0, 0)] * 3), "hold: box = [(0, 0), (0, 0), (0, 0)], must be two"),
         (lambda: rig.hold(box=((0, 0), (1, 1, 1))), "hold: corner of the box = (1, 1, 1), must be"),

@@ -235,7 +235,7 @@ def test_a_rig_presses_on_what_it_is_told(whole):
     refusal("confine: part = None", rig.confine, 1e6)
     rig.drive([floor], (0.0, 1.0))
     rig.alias_column("stress", "axial_stress")
-    refusal("alias_column = 'stress'", rig.also, "stress", "load")
+    refusal("alias_column = 'stress'", rig.alias_column, "stress", "load")
     with pytest.raises(InputError, match="gauge side: length of its direction = 0"):
         rig.gauge("side", (0.0, 0.0), (0.01, 0.0), along=(0.0, 0.0))
     rig.press(lid, 1e6)

@@ -353,7 +353,7 @@ def test_a_solid_turns_about_an_axis_as_told(box):
         ({"back": held}, "is given twice"),
         ({"area": 0.0}, "rotate: area = 0"),
     ):
-        refusal(message, rig.turn, held, **wrong)
+        refusal(message, rig.rotate, held, **wrong)
 
 
 def test_a_moved_set_takes_the_specimen_along(box):

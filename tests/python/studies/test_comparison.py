@@ -99,7 +99,7 @@ def test_the_command_compares_all_kinds_of_models(capsys, tmp_path):
     output, errors = capsys.readouterr()
     assert code == 3
     assert errors.count("\n") == 1
-    assert "flexible, rigid, jcfpm, cohfrict, found no strength" in errors
+    assert "flexible, rigid, jcfpm, cohfrict, gave no strength" in errors
     rows = rows_of(folder / "compare.csv")
     assert [row["status"] for row in rows] == ["no_peak"] * 4
     for row in rows:

@@ -81,7 +81,7 @@ void require_on_outline(
         }
     }
     if (!(off <= off_outline * length)) {
-        refuse("place of a support", place(patch.place),
+        refuse("position of a support", place(patch.place),
             "is " + number(off) + " m off the outline; move it onto the outline");
     }
     const double half = 0.5 * patch.length * (1.0 - 1e-9);
@@ -99,7 +99,7 @@ void require_on_outline(
 Plate patch_plate(const Assembly& a, const Patch& patch, const PlateContact& contact)
 {
     check_positive("length of a support", patch.length, "m");
-    check_finite("place of a support", patch.place.x + patch.place.y, "m");
+    check_finite("position of a support", patch.place.x + patch.place.y, "m");
     const bool given = patch.normal.x != 0.0 || patch.normal.y != 0.0;
     Plate p = plate_of(a, given ? unit(patch.normal) : normal_near(a, patch.place), contact);
     std::vector<int> facets;
@@ -148,7 +148,7 @@ constexpr double widest_jaw = 2.0 / 3.0 * pi;
 
 void check(const Jaw& jaw, const PlateContact& contact)
 {
-    check_finite("place of a jaw", jaw.place.x + jaw.place.y, "m");
+    check_finite("position of a jaw", jaw.place.x + jaw.place.y, "m");
     const double least = norm(jaw.centre - jaw.place);
     check_positive("distance of a jaw from the disc's centre", least, "m");
     check_finite("radius of a jaw", jaw.radius, "m");

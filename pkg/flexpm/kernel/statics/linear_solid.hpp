@@ -59,7 +59,8 @@ struct LinearSolid : LinearForces {
     /// Unknowns are the displacements of the nodes.
     void add(const double* u, double* forces) const override;
     DiagonalBlocks diagonal_blocks() const override;
-    /// Smooth motions that open no contact, and those in which grains stay rigid.
+    /// Smooth motions that open no contact, and, where contacts are compliant, those in which grains
+    /// stay rigid.
     std::vector<std::unique_ptr<WideMotions>> wide_motions(
         const std::vector<std::uint8_t>& held) const override;
 

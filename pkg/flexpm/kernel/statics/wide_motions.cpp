@@ -132,12 +132,32 @@ private:
     const Held& held_;
 };
 
+/// 1 for unknowns of rigid grains that are held, or that nothing resists: translations or turns of
+/// grains whose blocks are 0 but for rounding.
+Held not_moved(const DiagonalBlocks& blocks, Held held)
+{
+    constexpr double rounding = 1e-12;
+    const auto trace = [&](std::size_t triple) {
+        const double* k = blocks.values().data() + 9 * triple;
+        return k[0] + k[4] + k[8];
+    };
+    for (std::size_t i = 0; i + 5 < held.size(); i += 6) {
+        const double way = trace(i / 3), turn = trace(i / 3 + 1), least = rounding * (way + turn);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(way > least)) held[i + axis] = 1;
+            if (!(turn > least)) held[i + 3 + axis] = 1;
+        }
+    }
+    return held;
+}
+
 /// Smooth motions of rigid grains, which open contacts.
 class SmoothGrains : public WideMotions {
 public:
-    SmoothGrains(const RigidSolid& rigid, const Held& held) :
+    /// @param held  of the unknowns, and of grains that nothing resists
+    SmoothGrains(const RigidSolid& rigid, Held held) :
         rigid_(rigid),
-        held_(held),
+        held_(std::move(held)),
         grid_(opening_grid(rigid))
     {
     }
@@ -157,7 +177,7 @@ public:
 
 private:
     const RigidSolid& rigid_;
-    const Held& held_;
+    Held held_;
     CoarseGrid grid_;
 };
 
@@ -167,15 +187,10 @@ public:
     RigidMotions(RigidSolid rigid, const Held& held) :
         rigid_(std::move(rigid)),
         held_(held),
-        loose_(6 * rigid_.centres.size(), 0),
         blocks_(rigid_.diagonal_blocks()),
+        loose_(not_moved(blocks_, Held(6 * rigid_.centres.size(), 0))),
         smooth_(rigid_, loose_)
     {
-        const std::vector<double>& k = blocks_.values();
-        for (std::size_t i = 0; i < loose_.size(); ++i) {
-            const double* block = k.data() + 9 * (i / 3);
-            loose_[i] = block[0] + block[4] + block[8] > 0.0 ? 0 : 1;
-        }
         blocks_.invert(loose_);
     }
     void add(const double* forces, double* u) const override
@@ -192,8 +207,8 @@ public:
 private:
     RigidSolid rigid_;
     const Held& held_;
-    Held loose_;  ///< 1 for unknowns of grains that nothing resists
     DiagonalBlocks blocks_;
+    Held loose_;
     SmoothGrains smooth_;
 };
 
@@ -213,7 +228,10 @@ std::vector<std::unique_ptr<WideMotions>> wide_motions_of(
 std::vector<std::unique_ptr<WideMotions>> wide_motions_of(const RigidSolid& rigid, const Held& held)
 {
     std::vector<std::unique_ptr<WideMotions>> found;
-    found.push_back(std::make_unique<SmoothGrains>(rigid, held));
+    // sets of nodes that float have unknowns at the end
+    Held own(held.begin(), held.begin() + static_cast<long>(6 * rigid.centres.size()));
+    found.push_back(
+        std::make_unique<SmoothGrains>(rigid, not_moved(rigid.diagonal_blocks(), std::move(own))));
     return found;
 }
 
