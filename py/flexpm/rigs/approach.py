@@ -35,7 +35,7 @@ class Loaded(Protocol):
         """Steps from one row of the record to the next."""
 
     def approach(self, stress: float, velocity: float) -> None:
-        """Bring the stress nearer to a value [Pa], at a velocity of at most so much at factor 1."""
+        """Bring the stress closer to a value [Pa], at `velocity` at most for a factor of 1."""
 
 
 class Approach:
@@ -63,7 +63,7 @@ class Approach:
 
     @property
     def is_there(self) -> bool:
-        """Whether the stress of the last row is the one to come to."""
+        """Whether the stress of the last row has reached the target."""
         if self._stress is None:
             return False
         tolerance = max(_OF_STRESS * abs(self._stress), self.tolerance)

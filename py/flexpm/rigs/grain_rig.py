@@ -48,7 +48,7 @@ _MEMBRANE_PLATES = 16
 
 
 class GrainRig(TestRig):
-    """Record and loading rate of grains; how their ends are held depends on the kind of rig."""
+    """Record and loading rate of grains; the type of rig decides how their ends are fixed."""
 
     built: Model
 
@@ -152,7 +152,7 @@ class GrainRig(TestRig):
         return balance_of(self.built.solver, self._pressing_force())
 
     def _pressing_force(self) -> float:
-        """Least force with which the pressure acts on a whole side [N]."""
+        """Smallest force of the pressure on an entire side [N]."""
         sizes = self.built.specimen.dimensions
         side = min(sizes["width"], sizes["height"])
         return (self.confinement or 0.0) * side * self.built.specimen.thickness
@@ -244,7 +244,7 @@ class GrainRig(TestRig):
         return float(np.clip(part, SLOWEST_WAIT * plan.fastest, plan.fastest))
 
     def _begin_servo(self, plan: Schedule, factor: float) -> tuple[wrapper.ServoController, ...]:
-        """The servo of a plan that asks for one, in the place of what it drives. Deviation D51."""
+        """Return the servo of a plan with control; it replaces a prescribed motion. D51."""
         recorder = self._recorder
         if not plan.control:
             return ()

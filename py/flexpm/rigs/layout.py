@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How parts come onto a specimen: laid, or found in a scene that is taken up again. SI units."""
+"""Add parts to a specimen, or find the parts of a scene that has been loaded. SI units."""
 
 from __future__ import annotations
 
@@ -70,24 +70,30 @@ class PartLayout:
         strip: float | None = None,
         seated: bool = False,
     ) -> Part:
-        """Lay a plate against the part of the outline around a place.
+        """Add a plate on the part of the outline around a position.
 
         Args:
-            position: x and y, on the outline [m].
-            length: Along the outline [m]; None for half a mean diameter of the grains.
-            normal: x and y, into the specimen; zero: that of the outline there.
-            pinned: It does not slide along the outline as long as it presses; else it is a roller.
-            friction: Coefficient, of one that is neither [-].
-            bonded: It pulls, too.
-            strip: Stiffness per area of a soft layer between it and the grains [Pa/m], E / h of one
-                of thickness h; it comes in series with that of the contacts. None: no layer.
-            seated: It turns freely about the middle of its face, as on a spherical seat, so that it
-                bears no moment there (deviation D95); it is laid down on what is before it, as far
-                from square to its normal as that is. Else it does not turn.
+            position: x and y of a point on the outline [m].
+            length: Length of the plate along the outline [m]; None: half a mean grain diameter.
+            normal: x and y of a direction into the specimen; zero: the normal of the outline there.
+            pinned: Prevent sliding along the outline while the support is pressed. False: the
+                support is a roller, or slides with `friction`.
+            friction: Friction coefficient of a support that is not pinned [-]; 0: a roller.
+            bonded: Also transmit tension.
+            strip: Stiffness per area of a soft layer between the plate and the grains [Pa/m]: E / h
+                for a layer of thickness h. It acts in series with the contact stiffness. None: no
+                layer.
+            seated: Allow free rotation about the middle of the plate's face, as on a spherical
+                seat, so that the plate resists no moment there. The plate starts at the inclination
+                of the outline that it covers, measured from the plane normal to `normal` (deviation
+                D95). False: the plate does not rotate.
+
+        Returns:
+            The plate.
 
         Raises:
-            InputError: for a place that is not on the outline or that another part has, or a length
-                out of range.
+            InputError: for a position that is not on the outline or that another part occupies, or
+                a length out of range.
         """
         length = _SUPPORT * self.built.specimen.mean_diameter if length is None else length
         friction = require_number("support: friction", friction, NOT_NEGATIVE)
@@ -159,24 +165,29 @@ class PartLayout:
         friction: float = 0.0,
         strip: float | None = None,
     ) -> Part:
-        """Lay an arc around the rim of a disc: the curved jaw of a splitting test.
+        """Add an arc on the rim of a disc: the curved jaw of a splitting test.
 
-        The disc lies against ever more of it as the load grows; `contact_angle_of` records the
-        angle. A jaw of the disc's own radius touches all of its angle at once (deviation D95).
+        The contact between disc and jaw grows with the load; `contact_angle_of` records its angle.
+        A jaw with the radius of the disc touches the disc over its full angle from the start
+        (deviation D95).
 
         Args:
-            position: x and y of the jaw's middle, in whose direction from the disc's centre it lies
-                [m].
-            radius: Radius of the arc, at least the disc's; 1.5 times that by the ISRM [m].
-            angle: Angle of the disc before it [rad], at most 2 pi / 3, which it has by default; one
-                of the disc's own radius needs it.
-            friction: Coefficient [-]. Between two smooth ones of its own radius a disc is free to
-                turn, and no loading of it begins.
+            position: x and y of a point [m], on the rim within 5 % of the disc's radius. The middle
+                of the jaw is in the direction of this point from the centre of the disc.
+            radius: Radius of the arc [m], at least the radius of the disc; the ISRM suggests 1.5
+                times the radius of the disc.
+            angle: Angle of the disc that the jaw can cover [rad], at most and by default 2 pi / 3.
+                It is required for a jaw with the radius of the disc.
+            friction: Friction coefficient [-]. Between two smooth jaws with its own radius, a disc
+                is free to rotate, and no loading can begin.
             strip: As for `support` [Pa/m].
 
+        Returns:
+            The plate.
+
         Raises:
-            InputError: for a specimen that is no disc, a place off its rim by more than 5 % of its
-                radius, a radius below the disc's, or an angle out of range or missing.
+            InputError: for a specimen that is not a disc, a position off the rim, a radius below
+                the radius of the disc, or an angle that is out of range or missing.
         """
         centre, rim = self._disc()
         x, y, _ = require_vector("jaw: position", position)
@@ -213,22 +224,25 @@ class PartLayout:
         where: Where | None = None,
         axes: str | None = None,
     ) -> HeldNodes:
-        """Hold the nodes of a region at rest; `drive`, `rotate` or `HeldNodes.move` moves them.
+        """Fix the nodes of a region; `drive`, `rotate` and `HeldNodes.move` move them.
 
-        All nodes in the region of deformable grains are held, of rigid ones the centres, about
-        which the grains are free to turn (deviation D52). What counts is where they were when
-        bonded. The region is one of:
+        Deformable grains are fixed at all nodes in the region. Rigid grains are fixed at their
+        centres, about which they are free to rotate (deviation D52). The positions of the bonded
+        state count. Give exactly one of `box`, `disc` (2D) or `ball` (3D), and `where`.
 
         Args:
-            box: Two opposite corners [m]; what lies on its edges is in.
-            disc: x and y of the centre, and the radius, in the plane [m].
-            ball: x, y and z of the centre, and the radius, in space [m].
-            where: Function of the places' x and y, and z in space, arrays [m], that says which ones
-                are in.
-            axes: Those along which they are held, as ``"x"`` or ``"xy"``; None: all.
+            box: Two opposite corners [m]; the edges belong to the box.
+            disc: x and y of the centre, and the radius, in 2D [m].
+            ball: x, y and z of the centre, and the radius, in 3D [m].
+            where: Function of the arrays x and y, in 3D also z, with n positions [m]; returns n
+                bools: true for a position in the region.
+            axes: Fixed axes, for example ``"x"`` or ``"xy"``; None: all axes.
+
+        Returns:
+            The set of fixed nodes.
 
         Raises:
-            InputError: for a region without nodes, or with nodes that another part has.
+            InputError: for a region without nodes, or with nodes that belong to another part.
         """
         axes = _require_axes(axes, self._axes)
         if (disc if self._axes == SPACE else ball) is not None:
@@ -269,14 +283,14 @@ class PartLayout:
         return Part(self, self.built.solver, kind, number, position)
 
     def _asked(self, kind: str, call: Callable[[], Answer]) -> Answer:
-        """What the kernel says to a call, its refusal in the name of the kind."""
+        """Return the result of a kernel call; its error becomes an InputError of this part type."""
         try:
             return call()
         except ValueError as error:
             raise InputError(f"{kind}: {error}") from None
 
     def _take(self, part: type[RigPart], kind: str, number: int) -> int:
-        """Take a part that the scene has had before the rig, unless it is not one of these."""
+        """Claim a part of a loaded scene, or raise InputError if the scene does not have it."""
         found = self._found[part]
         if number not in found:
             solver = self.built.solver
@@ -291,10 +305,11 @@ class PartLayout:
 
     @property
     def parts(self) -> list[Table]:
-        """All parts as plain values: plates, then held nodes by their numbers.
+        """All parts as plain values: plates, then sets of fixed nodes, by index.
 
-        A place is that where the part was laid, or since when displacements count [m]; a face is a
-        line along a plate, or around held nodes, when bonded [m].
+        ``position`` is the position at zero displacement [m]: where the part was added, or where it
+        was when displacements began to count. ``face`` is a line along a plate, or around fixed
+        nodes, in the bonded state [m].
         """
         solver = self.built.solver
         plates = [
@@ -362,7 +377,7 @@ def _face_of(plate: Table) -> list[list[float]]:
 
 
 def _box_around(places: FloatArray) -> list[list[float]]:
-    """Line around places [m]; none of a set whose grains are erased."""
+    """Return the rectangle around positions [m]; empty for a set whose grains are erased."""
     if len(places) == 0:
         return []
     (left, low), (right, high) = places.min(axis=0).tolist(), places.max(axis=0).tolist()

@@ -74,9 +74,17 @@ class PartColumns(PartLayout):
         )
 
     def displacement_of(self, name: str, part: RigPart, direction: Place) -> None:
-        """Record how far a part moves along a direction [m], in a column of this name.
+        """Record the displacement of a part along a direction [m], in a column of this name.
 
-        The way of held nodes is their mean.
+        The displacement of fixed nodes is the mean over the nodes.
+
+        Args:
+            name: Name of the column.
+            part: Part of this rig.
+            direction: x and y, in 3D also z, of any length.
+
+        Raises:
+            InputError: for a name that is taken, a part of another rig, or a direction of length 0.
         """
         label = f"gauge {self._gauge_name(name)}"
         part = require_part(f"{label}: part", self, part, RigPart)
@@ -88,10 +96,17 @@ class PartColumns(PartLayout):
         self._add_gauge(name, gauge)
 
     def contact_angle_of(self, name: str, jaw: Part) -> None:
-        """Record the angle over which a disc lies against a jaw [rad], in a column of this name.
+        """Record the contact angle between a disc and a jaw [rad], in a column of this name.
 
-        It is that at the disc's centre between the outermost points in contact, each with its
-        tributary length.
+        The angle is measured at the centre of the disc between the outermost points in contact;
+        each point contributes its tributary length.
+
+        Args:
+            name: Name of the column.
+            jaw: Plate that `jaw` returned.
+
+        Raises:
+            InputError: for a name that is taken, or a part that is not a jaw of this rig.
         """
         label = f"gauge {self._gauge_name(name)}"
         jaw = require_part(f"{label}: part", self, jaw, Part)
@@ -102,9 +117,16 @@ class PartColumns(PartLayout):
         self._add_gauge(name, wrapper.Gauge(plate=jaw.number, reads="contact_angle"))
 
     def rotation_of(self, name: str, part: Part) -> None:
-        """Record the rotation of a seated part, see `Part.angle` [rad], in a column of this name.
+        """Record the rotation of a seated part [rad], in a column of this name; see `Part.angle`.
 
         In 3D the column has the magnitude of the rotation.
+
+        Args:
+            name: Name of the column.
+            part: Plate that was added with ``seated=True``.
+
+        Raises:
+            InputError: for a name that is taken, or a part that is not a seated part of this rig.
         """
         label = f"gauge {self._gauge_name(name)}"
         part = require_part(f"{label}: part", self, part, Part)
@@ -124,7 +146,7 @@ class PartColumns(PartLayout):
             self._add_gauge(label, wrapper.Gauge(plate=plate, direction=unit, reads=reads))
 
     def _rename(self, there: list[wrapper.Gauge], name: str) -> None:
-        """Give gauges of a record that began under an old name, and its servo, the present one."""
+        """Rename gauges of a record that began under an old name, also in the servo."""
         for one in there:
             if self._recorder.controlled == one.name:
                 self._recorder.controlled = name
@@ -153,7 +175,15 @@ class PartColumns(PartLayout):
         return self._recorder.reading(name)
 
     def alias_column(self, name: str, column: str) -> None:
-        """Give a column of the record a second name, which the test is known by."""
+        """Add an alias to a column of the record, under which the test reports it.
+
+        Args:
+            name: The alias.
+            column: Name of the column.
+
+        Raises:
+            InputError: for an unknown column, or an alias that is the name of another column.
+        """
         there = self._columns()
         column = present(column, RENAMED, there)
         require_known("alias_column: column", column, there)

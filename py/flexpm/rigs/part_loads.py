@@ -34,32 +34,33 @@ class PartLoads(PartLayout):
         strength: float = 0.0,
         machine: float | None = None,
     ) -> None:
-        """Say which parts load the specimen, and what its stress and strain are.
+        """Select the driven parts, and define the stress and the strain of the specimen.
 
-        The record has the columns ``load`` and ``displacement`` of these parts. Its stress is the
-        load over `area`, its strain the displacement over `length`: with the defaults they are the
-        load and the displacement themselves. A part that is pressed is taken over as it is loaded:
-        its pressure ends there, and its force goes on from there.
+        The record has the columns ``load`` and ``displacement`` of the driven parts. Its stress is
+        load / `area`, its strain displacement / `length`: with the defaults these are the load and
+        the displacement. If a part is under a pressure of `press`, the pressure ends, and the
+        loading continues from the present force of the part.
 
         Args:
-            parts: They move alike.
-            direction: That of the loading, x, y and in space z.
-            against: Parts that hold the specimen against the load: the load is then the mean of
-                both sides', and their difference is recorded.
-            area: Load over stress [m2].
-            length: Displacement over strain [m].
-            strength: Stress that the specimen will bear, roughly [Pa], which sets the loading rate;
-                0: twice that at which the first contact point softens.
-            machine: Stiffness of a soft machine [N/m], a spring between the one plate that loads
-                along its normal and a crosshead, which then moves in its place (deviation D95).
-                The record has the columns ``crosshead_displacement``, along the loading [m], and
-                ``machine_energy``, stored in the spring [J], beside those of the plate; its
-                energies are those of the specimen. None: the plate itself is moved.
+            parts: Driven parts, which all move with the same velocity.
+            direction: Direction of the loading, x and y, in 3D also z.
+            against: Parts that carry the reaction. The load is then the mean of both sides, and the
+                difference of both sides is recorded.
+            area: Ratio of load to stress [m2].
+            length: Ratio of displacement to strain [m].
+            strength: Approximate strength of the specimen [Pa], which sets the loading rate; 0:
+                twice the stress at which the first contact point softens.
+            machine: Stiffness of a soft machine [N/m]; None: the plate itself is driven. The
+                machine is a spring between the single driven plate, which moves along its normal,
+                and a crosshead. The loading moves the crosshead instead of the plate (deviation
+                D95). The record also gets the columns ``crosshead_displacement``, along the loading
+                [m], and ``machine_energy``, stored in the spring [J]. Its other energies are those
+                of the specimen.
 
         Raises:
-            InputError: for what is no part of this rig or is there twice, nodes that are not held
-                along the direction, or a size out of range; in a scene whose record has begun, for
-                anything else than it began with.
+            InputError: for an object that is not a part of this rig, a part that occurs twice,
+                nodes that are not fixed along the direction, or a size out of range. If the scene
+                has a record that has begun, also for arguments that differ from the first call.
         """
         unit = require_direction("drive", direction, self._axes)
         moved = require_parts("drive: part", self, parts, RigPart)
@@ -96,19 +97,21 @@ class PartLoads(PartLayout):
         length: float = 1.0,
         strength: float = 0.0,
     ) -> None:
-        """Load the specimen by turning held nodes, each set like a rigid body.
+        """Load the specimen by rotating fixed nodes, each set like a rigid body.
 
-        The record's ``load`` is the sum of their moments [N m], its ``displacement`` the angle of
-        each [rad]; stress and strain are these over `area` and `length`, as with `drive`.
+        The column ``load`` of the record is the sum of the moments of all sets [N m], and
+        ``displacement`` is the rotation of each set [rad]. Stress and strain are load / `area` and
+        displacement / `length`, as with `drive`.
 
         Args:
-            parts: Sets that turn counter-clockwise.
-            back: Sets that turn clockwise by the same angle.
-            about: x and y of the point that all turn about [m]. None: each turns about the mean of
-                its places and is free to move with it, so that a moment alone acts (deviation D53).
-            area: Load over stress [N m / Pa].
-            length: Displacement over strain [-].
-            strength: As for `drive`.
+            parts: Sets that rotate counter-clockwise.
+            back: Sets that rotate clockwise by the same angle.
+            about: x and y of the point about which all sets rotate [m]. None: each set rotates
+                about the mean of its positions and is free to translate, so that only a moment acts
+                (deviation D53).
+            area: Ratio of load to stress [N m / Pa].
+            length: Ratio of rotation to strain [-].
+            strength: As for `drive` [Pa].
 
         Raises:
             InputError: as `drive`.
@@ -168,7 +171,7 @@ class PartLoads(PartLayout):
 
     @property
     def machine(self) -> float:
-        """Stiffness of the machine behind what loads [N/m]; 0: none gives way."""
+        """Stiffness of the machine behind the driven plate [N/m]; 0: rigid."""
         plates = self.built.solver.plates()
         return max((float(plates[n]["machine"]) for n in self._frame.driven), default=0.0)
 

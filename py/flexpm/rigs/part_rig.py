@@ -120,7 +120,7 @@ class PartRig(PartColumns, PartExcavation):
 
     @property
     def layout(self) -> Table:
-        """Parts, what loads, and gauges, as plain values."""
+        """Parts, driven parts and gauges as plain values."""
         return {"parts": self.parts, "drive": self.drives, "gauges": self.gauges}
 
     def scales(self) -> Scales:
@@ -265,7 +265,7 @@ class PartRig(PartColumns, PartExcavation):
         return pressing.pressure * self.pressed.area
 
     def _crossing_steps(self) -> float:
-        """Steps of a disc of the specimen's area: what is open before it is pressed has none."""
+        """Transit time in a disc of the specimen's area [steps]; also before pressing."""
         return self.built.solver.crossingSteps(self.built.specimen.equal_diameter)
 
     @property
@@ -302,7 +302,7 @@ class PartRig(PartColumns, PartExcavation):
         return 1.0 + self.scales().modulus * self._frame.area / self._frame.length / machine
 
     def _schedule(self, loading: Loading) -> Schedule:
-        """The way at the rate is that of the parts."""
+        """Return the plan with the velocity at which the parts produce the loading rate."""
         plan = super()._schedule(loading)
         return replace(plan, velocity=plan.velocity * self._ahead)
 

@@ -40,7 +40,7 @@ class RigPart:
 
     @property
     def position(self) -> tuple[float, ...]:
-        """Where it is, x, y and in space z [m]."""
+        """Present position of the part, x and y, in 3D also z [m]."""
         return self._vector("place")
 
     @property
@@ -77,7 +77,7 @@ class RigPart:
 
 @dataclass(frozen=True, eq=False)
 class Part(RigPart):
-    """A plate of a rig; `position` is where its load acts: the mean of its contacts by area."""
+    """A plate; its load acts at `position`, the area-weighted mean of its contacts."""
 
     _list = "plates"
 
@@ -121,17 +121,17 @@ class Part(RigPart):
 
 @dataclass(frozen=True, eq=False)
 class HeldNodes(RigPart):
-    """Nodes that a rig holds or moves as one.
+    """Set of nodes that a rig fixes or moves like a rigid body.
 
-    `position` is the point about which they turn: the mean of their places, unless told otherwise.
-    In the plane a turn is counter-clockwise, in space it has three components, right-handed.
+    The set rotates about `position`, by default the mean of the nodes' positions. A rotation is
+    counter-clockwise in 2D; in 3D it is a right-handed vector with three components.
     """
 
     _list = "nodeSets"
 
     @property
     def moment(self) -> float | tuple[float, ...]:
-        """On the specimen about `position` [N m]."""
+        """Moment on the specimen about `position` [N m]; in 3D x, y and z."""
         return self._turn("moment")
 
     @property
@@ -150,15 +150,16 @@ class HeldNodes(RigPart):
         return str(self._now["axes"])
 
     def move(self, velocity: Place | None = None, spin: float | Place = 0.0) -> None:
-        """Move them from the next step on, whatever the rig's loading does.
+        """Prescribe the nodes' velocity from the next step on, independently of the loading.
 
         Args:
-            velocity: x, y and in space z, of what is held alone [m/s, or m per step with scaled
-                masses]; None: none.
-            spin: About `position` [rad/s, or rad per step]; in space x, y and z.
+            velocity: x and y, in 3D also z, along fixed axes only [m/s; m per step with scaled
+                masses]; None: zero.
+            spin: Angular velocity about `position` [rad/s; rad per step with scaled masses]; in 3D
+                x, y and z.
 
         Raises:
-            InputError: for a velocity along an axis that is not held, or one of nodes that turn
+            InputError: for a velocity along an axis that is not fixed, or for nodes that rotate
                 freely.
         """
         axes = SPACE if self._is_in_space else PLANE

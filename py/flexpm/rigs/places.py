@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points, directions, regions, jaws and names of columns, as scripts give them. SI units.
+"""Check points, directions, regions, jaws and column names of scripts. SI units.
 
-Places of the plane are x and y, those of space x, y and z.
+Positions in 2D are x and y, in 3D x, y and z.
 """
 
 from __future__ import annotations
@@ -35,13 +35,16 @@ _POINTS = 25
 
 
 def require_vector(label: str, value: object, unit: str = "m", axes: str = PLANE) -> Vector:
-    """Return finite numbers along axes, with a zero behind those of the plane, or raise InputError.
+    """Return finite components along axes as x, y and z; in 2D, z is 0.
 
     Args:
-        label: Names the value in messages.
-        value: What a script has given.
-        unit: Its unit.
+        label: Name of the value in messages.
+        value: Value that a script has passed.
+        unit: Unit of the value.
         axes: ``PLANE`` or ``SPACE``.
+
+    Raises:
+        InputError: for another number of components, or a component that is not finite.
     """
     words = f"{', '.join(axes[:-1])} and {axes[-1]}"
     numbers = _several(f"{label} = {quoted(value)}, must be {words}", value, len(axes))
@@ -53,7 +56,7 @@ def require_vector(label: str, value: object, unit: str = "m", axes: str = PLANE
 
 
 def require_direction(label: str, value: object, axes: str = PLANE) -> Vector:
-    """Return a direction as a unit vector, or raise InputError."""
+    """Return a direction as a unit vector, or raise InputError for a vector of length 0."""
     x, y, z = require_vector(f"{label}: direction", value, "", axes)
     size = math.hypot(x, y, z)
     require_number(f"{label}: length of its direction", size, POSITIVE)
@@ -61,7 +64,7 @@ def require_direction(label: str, value: object, axes: str = PLANE) -> Vector:
 
 
 def require_column(label: str, name: object, taken: Sequence[str]) -> str:
-    """Return a name that a column may have beside others, or raise InputError."""
+    """Return the name of a new column, or raise InputError for a name that is taken."""
     text = require_name(label, name)
     if text in taken:
         raise InputError(
@@ -77,14 +80,17 @@ def in_region(
     where: Where | None,
     axes: str = PLANE,
 ) -> BoolArray:
-    """Which of the places, (n, 2) or (n, 3), lie in the one region that is given.
+    """Return for each position whether it is in the region, (n,).
 
     Args:
-        places: Those of nodes [m].
-        box: Two opposite corners.
-        ball: Centre and radius of a ball, or of a disc in the plane.
-        where: Function of arrays of their components.
+        places: Positions of nodes, (n, 2) or (n, 3) [m].
+        box: Two opposite corners [m].
+        ball: Centre and radius of a ball, in 2D of a disc [m].
+        where: Function of the arrays of components [m] that returns n bools.
         axes: ``PLANE`` or ``SPACE``.
+
+    Raises:
+        InputError: unless exactly one region is given, with values in range.
     """
     word, dimension = ("ball" if axes == SPACE else "disc"), len(axes)
     if sum(region is not None for region in (box, ball, where)) != 1:
@@ -118,7 +124,7 @@ def in_region(
 
 
 def _several(refusal: str, value: object, count: int = 2) -> list[object]:
-    """So many things of a list."""
+    """Return `count` items of a list, or raise InputError with the text `refusal`."""
     found: list[object]
     try:
         found = list(value)  # type: ignore[call-overload]
@@ -141,17 +147,18 @@ class Jaw:
     def of(
         cls, at: Place, centre: tuple[float, float], rim: float, radius: object, angle: object
     ) -> Jaw:
-        """A jaw as a rig is asked for it.
+        """Return a jaw from the arguments of a rig.
 
         Args:
-            at: Where it is to lie, across the disc's axis [m].
-            centre: The disc's centre [m].
-            rim: The disc's radius [m].
-            radius: That of the jaw, at least the disc's [m].
-            angle: Part of the disc before it [rad]; None: the widest, not of the disc's own radius.
+            at: Position of the jaw, in the plane across the disc's axis [m].
+            centre: Centre of the disc [m].
+            rim: Radius of the disc [m].
+            radius: Radius of the jaw, at least the radius of the disc [m].
+            angle: Angle of the disc that the jaw can cover [rad]; None: the largest angle, which is
+                not available for the radius of the disc.
 
         Raises:
-            InputError: for a place off the rim, or a radius or an angle out of range.
+            InputError: for a position off the rim, or a radius or an angle out of range.
         """
         way = (at[0] - centre[0], at[1] - centre[1])
         long = float(np.hypot(*way))
@@ -176,7 +183,7 @@ class Jaw:
         return cls((way[0] * there, way[1] * there), max(radius, rim), before)
 
     def trace(self, rim: float) -> list[list[float]]:
-        """Its arc about a disc of a radius [m], whose centre is at 0."""
+        """Return the arc, (n, 2) [m], around a disc of radius `rim` [m] with its centre at 0."""
         out = np.array(self.towards) / rim
         at = rim * np.sin(0.5 * self.angle) * np.linspace(-1.0, 1.0, _POINTS)
         rise = self.radius - np.sqrt(self.radius**2 - at**2)

@@ -241,7 +241,7 @@ class RigReadings(ABC):
 
     @property
     def layout(self) -> Table:
-        """How the specimen is held and loaded, as plain values."""
+        """Fixed and driven parts of the specimen as plain values."""
         return {"ends": {"test": self.kind, "pull": self.tension}}
 
     @property

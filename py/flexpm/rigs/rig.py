@@ -351,7 +351,7 @@ class TestRig(RigReadings):
 
     @property
     def _pressed_part(self) -> Table:
-        """What `confine` presses on, where that is not all around."""
+        """Part on which `confine` acts; empty if it acts on all sides."""
         return {}
 
     def _tell(self, stage: str, **values: object) -> None:
@@ -459,7 +459,7 @@ class TestRig(RigReadings):
 
     @property
     def _borne(self) -> str:
-        """What bears the load that is not what it was to be, to be added to a message."""
+        """Text for a message, about the part whose load has missed its target; empty by default."""
         return ""
 
     def _step_through(self, over: Callable[[], bool], text: str) -> None:
@@ -507,7 +507,7 @@ class TestRig(RigReadings):
         return _span(plan)
 
     def _sense_to(self, stress: float, step: int) -> float:
-        """-1 if the stress must fall from what the record has at a step, else 1."""
+        """Return -1 if the stress at a step must decrease to reach `stress`, else 1."""
         return 1.0 if stress >= self._stress_at(step) else -1.0
 
     def _stress_at(self, step: int) -> float:

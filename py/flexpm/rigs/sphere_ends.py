@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What loads YADE's bonded spheres: plates, grips and lateral pressure, paper Sec. 4. SI units."""
+"""Loading of YADE's bonded spheres: plates, grips and lateral pressure, paper Sec. 4. SI units."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from .rig import BOTTOM, TOP
 
 
 class Ends:
-    """What holds a specimen at its ends: a plate each, or the outermost layers of spheres."""
+    """Bodies that grip the ends of a specimen: a plate each, or the outermost layers of spheres."""
 
     def __init__(self, built: SphereModel, bottom: Sequence[int], top: Sequence[int]) -> None:
         """Take the bodies of both ends."""
         self._built, self._bottom, self._top = built, bottom, top
 
     def move(self, velocity: float) -> None:
-        """Move the upper end, positive away from the lower one [m/s, or m per step]."""
+        """Set the velocity of the upper end, positive if it extends [m/s, or m per step]."""
         for bodies, speed in ((self._bottom, 0.0), (self._top, velocity)):
             for body in bodies:
                 _set_speed(self._built, body, speed)
@@ -40,7 +40,7 @@ class Ends:
         return bottom, top
 
     def travel(self) -> float:
-        """Displacement of the upper end, positive away from the lower one [m]."""
+        """Displacement of the upper end, positive away from the lower end [m]."""
         return self._built.state_of(self._top[0]).displ()[self._built.axis]
 
 
@@ -52,12 +52,12 @@ def _set_speed(built: SphereModel, body: int, speed: float) -> None:
 
 
 def section(specimen: SolidSpecimen) -> float:
-    """Area across the axis of a solid [m2]."""
+    """Return the cross-sectional area of a 3D specimen [m2]."""
     return specimen.outline().volume / specimen.dimensions["height"]
 
 
 def plates_of(built: SphereModel) -> Ends:
-    """The two frictionless horizontal plates that have been laid; the lower one stands still."""
+    """Return the two frictionless horizontal plates; the lower plate does not move."""
     bottom, top = built.plates
     return Ends(built, [bottom], [top])
 
@@ -112,13 +112,13 @@ def squeeze_disc(built: SphereModel) -> None:
 
 
 def strain_evenly(built: SphereModel, velocity: float) -> None:
-    """Give the spheres the velocities of a uniform axial strain rate, so that no wave runs.
+    """Give the spheres the velocities of a uniform axial strain rate, so that no wave starts.
 
     With real masses waves carry the motion of the ends into the specimen.
 
     Args:
-        built: A rectangle or a solid.
-        velocity: Velocity of its upper end, positive away from the lower one [m/s, or m per step].
+        built: A rectangle or a 3D specimen.
+        velocity: Velocity of the upper end, positive away from the lower end [m/s, or m per step].
     """
     bottom, top = built.specimen.heights
     for body, y in zip(built.ids, built.specimen.centres[:, built.axis].tolist(), strict=True):
@@ -126,9 +126,9 @@ def strain_evenly(built: SphereModel, velocity: float) -> None:
 
 
 class Pressure:
-    """Pressure on sides of a rectangle, following the grains: each turns its part of the side.
+    """Pressure on sides of a rectangle; the load on each grain rotates with its part of the side.
 
-    YADE's permanent forces carry it; :meth:`update` lets them follow the deformation.
+    YADE's permanent forces apply it; :meth:`update` adapts them to the deformation.
     """
 
     def __init__(self, built: SphereModel, sides: Sequence[int]) -> None:
@@ -167,7 +167,7 @@ class Pressure:
 
 
 def hold_middle(built: SphereModel) -> None:
-    """Keep the place sideways of the grain of the lower end that is nearest to its middle."""
+    """Fix the lateral position of the grain of the lower end that is nearest to its middle."""
     grains = list(tributary_sizes(built.specimen, BOTTOM))
     across = built.specimen.centres.T[: built.axis]
     away = np.hypot.reduce([np.abs(one[grains] - one.mean()) for one in across])

@@ -180,13 +180,14 @@ class SphereRig(TestRig):
         return utils.unbalancedForce(useMaxForce=True) * free / largest if largest > 0.0 else 0.0
 
     def balance(self) -> Balance:
-        """What the spheres fail to bear of the pressure on them, by the net forces on all of them.
+        """Return the imbalance between the spheres and the pressure on them, from all net forces.
 
-        Pressure acts on the lower end, too: nothing there reacts. Net forces times places are what
-        the mean stress (contact forces times branches) is short of the pressure's.
+        The pressure acts on the lower end also, since no part reacts there. The sum of net force
+        times position is the difference between the stress of the pressure and the mean stress
+        (contact forces times branch vectors).
 
         Raises:
-            InputError: for a solid, which is under no pressure.
+            InputError: for a 3D specimen, which has no pressure.
         """
         if self.solid:
             raise InputError(f"balance: specimen = {self.built.specimen.kind}, {_NO_PRESSURE}")

@@ -40,7 +40,7 @@ ACROSS = 0
 
 
 class WaveRig(GrainRig):
-    """A specimen whose sides are held across the motion of a wave, or free; its ends are free."""
+    """A specimen with free ends; its sides are free, or fixed across the motion of a wave."""
 
     #: Component of the motion along the height.
     _along = 1
@@ -196,7 +196,7 @@ def unit(axis: int) -> tuple[float, float, float]:
 
 
 def _pulse(place: FloatArray) -> FloatArray:
-    """Half a pulse, from 1 at a place of 0 down to 0 at 1 and beyond [-]."""
+    """Return half a pulse, from 1 at a position of 0 down to 0 at 1 and beyond [-]."""
     # numpy has cosines of its own on some processors: results would differ between machines
     return np.array(
         [0.5 * (1.0 + math.cos(math.pi * one)) if one < 1.0 else 0.0 for one in place.tolist()]

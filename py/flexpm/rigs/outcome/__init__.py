@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a test on a rig leaves: its result, what a script's own test was, its folder."""
+"""Output of a test on a rig: its result, the calls of a custom test, its folder."""

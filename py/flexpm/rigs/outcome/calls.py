@@ -226,11 +226,12 @@ class Again:
     """Makes stored calls again on a rig."""
 
     def __init__(self, rig: object, places: Callable[[], IntArray]) -> None:
-        """Take a rig.
+        """Prepare the calls for a rig.
 
         Args:
-            rig: As it was when the first call was made.
-            places: Nodes in the order in which a function that chooses some is asked for them.
+            rig: The rig in its state before the first call.
+            places: Returns the nodes in the order in which a function that chooses nodes receives
+                them.
         """
         self._rig, self._places = rig, places
         self._parts: dict[tuple[str, int], RigPart] = {}

@@ -210,9 +210,9 @@ def _is_earlier(file: Path, inputs: Table) -> bool:
 
 
 def _fixed(inputs: Table, name: str) -> object:
-    """An input without labels of a material and without places of parts.
+    """Return an input without the labels of a material and without the positions of parts.
 
-    The last digits of a place come from where the part is now.
+    The last digits of a position depend on the present position of the part.
     """
     value = inputs.get(name)
     if name == "material":

@@ -118,16 +118,16 @@ class KeptTest:
     def of(
         cls, built: Model | SphereModel, call: str, leaves: Leaves, **asked: object
     ) -> KeptTest | None:
-        """What a rig is given to leave, None for nothing.
+        """Return the output of a rig, or None if it has no output.
 
         Args:
             built: The specimen.
-            call: What makes the rig.
-            leaves: What it is to leave.
-            asked: Arguments of that call.
+            call: Name of the call that makes the rig.
+            leaves: Requested output.
+            asked: Arguments of the call.
 
         Raises:
-            InputError: for frames without a folder, and as for a new one.
+            InputError: for frames without a folder, and as for a new test.
         """
         unknown = leaves.keys() - Leaves.__annotations__.keys()
         if unknown:
@@ -342,7 +342,7 @@ def _mark(rig: TestRig) -> bytes:
 
 
 def _is_there(rig: TestRig) -> bool:
-    """Whether YADE's scene is still that of a rig."""
+    """Whether YADE's scene is still the scene of a rig."""
     return bool(rig.built.engines) and rig.built.engines[0] in yade.O.engines
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The result of a test on a rig: what record, grains and cracks say at its end. SI units."""
+"""Result of a test on a rig, from its record, grains and cracks at the end. SI units."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from ..readings import RigReadings
 
 
 def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting: bool) -> Result:
-    """Measure what a test has left in its rig and its scene.
+    """Measure the results of a test in its rig and its scene.
 
     Args:
-        rig: Holds the specimen.
-        test: Name of the test, which says what its record means.
-        largest_unbalanced: Ratio up to which it is quasi-static [-], see ``Result.measure``.
-        waiting: Its loading waited for cracks.
+        rig: Rig with the specimen.
+        test: Name of the test, which defines the meaning of the record.
+        largest_unbalanced: Largest ratio of a quasi-static test [-], see ``Result.measure``.
+        waiting: Whether the loading was crack-controlled.
     """
     built = rig.built
     counts, snapshot = built.counts(), built.snapshot()
@@ -85,6 +85,6 @@ def grains_across(specimen: AnySpecimen) -> float:
 
 
 def _event_rule(specimen: Specimen, solver: wrapper.GrainSolver) -> EventRule:
-    """What makes an event, by the speed of a wave through a disc of the specimen's area."""
+    """Return the rule for events, from the wave speed in a disc of the specimen's area."""
     diameter = specimen.equal_diameter
     return event_rule(specimen.mean_diameter, diameter, solver.crossingSteps(diameter))

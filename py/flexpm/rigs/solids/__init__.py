@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rigs of solids."""
+"""Rigs of 3D specimens."""

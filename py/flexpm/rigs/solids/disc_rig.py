@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rig of a disc of space: two plates that touch it, paper Sec. 4.1. SI units."""
+"""Rig of a 3D disc between two plates, paper Sec. 4.1. SI units."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .end_rig import EndRig
 
 
 class SolidDiscRig(EndRig):
-    """A disc about the y axis between smooth plates, of which the upper one goes down along z."""
+    """A disc about the y axis between smooth plates; the upper plate moves down along z."""
 
     #: Radius of the jaws [m]; 0: plates are flat.
     _radius: float = 0.0
@@ -32,21 +32,22 @@ class SolidDiscRig(EndRig):
         super().__init__(built, tension=tension, runner=runner)
 
     def bend(self, radius: float) -> None:
-        """Press with curved jaws in place of flat plates. It comes before the loading.
+        """Replace the flat plates by curved jaws, before the loading.
 
-        Gaps and normals are those of two circles (deviation D95).
+        Gaps and normals follow from two circles (deviation D95).
 
         Args:
-            radius: That of the jaws, above the disc's; 1.5 times that by the ISRM [m].
+            radius: Radius of the jaws, above the radius of the disc; the ISRM suggests 1.5 times
+                the radius of the disc [m].
 
         Raises:
-            InputError: for a radius that is no larger than the disc's.
+            InputError: for a radius that is not above the radius of the disc.
         """
         least = 0.5 * self.built.specimen.dimensions["diameter"]
         self._radius = require_number("bend: radius", radius, Bounds(above=least), "m")
 
     def roughen(self, friction: float) -> None:
-        """Refuse friction: what the plates touch at first does not slide.
+        """Reject friction: the first contacts of the plates do not slide.
 
         Raises:
             InputError: always.

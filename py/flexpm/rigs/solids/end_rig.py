@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rig of a solid, whose ends move along its axis, paper Sec. 4.1 in space. SI units."""
+"""Rig of a 3D specimen whose ends move along its axis, paper Sec. 4.1. SI units."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ FRONT, BACK = 4, 5
 
 
 class EndRig(SolidGrains):
-    """Both ends of a solid, along z: nodes of deformable grains, plates on rigid ones.
+    """Both ends of a 3D specimen along z: nodes of deformable grains, plates on rigid grains.
 
-    Pressures act on the surface triangles of either, and on the top until it is driven.
+    Pressures act on the surface triangles of both grain types, and on the top until it is driven.
     """
 
     #: Friction coefficient of the ends from the loading on [-]; 0: they are smooth.
@@ -29,15 +29,15 @@ class EndRig(SolidGrains):
     _second: float | None = None
 
     def roughen(self, friction: float) -> None:
-        """Let the ends stick to plates as far as friction bears it, from the loading on.
+        """Add friction at the ends, from the loading on; call it before the first stage.
 
-        It comes before the first stage. Deviation D80.
+        Ends stick to the plates where friction carries the shear force. Deviation D80.
 
         Args:
-            friction: Coefficient [-]; 0: smooth.
+            friction: Friction coefficient [-]; 0: smooth.
 
         Raises:
-            InputError: for one out of range, or ends that pull.
+            InputError: for a friction out of range, or ends in tension.
         """
         friction = require_number("roughen: friction", friction, END_FRICTION.bounds)
         if friction > 0.0 and self.tension:
@@ -47,19 +47,19 @@ class EndRig(SolidGrains):
         self._friction = friction
 
     def confine(self, pressure: float, second: float | None = None) -> None:
-        """Press on the sides and the top, the bottom held, until the forces balance.
+        """Press on sides and top, with the bottom fixed, until the forces are in equilibrium.
 
-        They do when the reactions and the mean stress of the specimen differ from the pressures by
-        less than 0.1 %, and the waves that still run are as small. Strains count from there on. The
-        top bears the larger pressure.
+        In equilibrium the reactions and the mean stress of the specimen differ from the pressures
+        by less than 0.1 %, and so do the remaining waves. Strains are counted from this state. The
+        larger pressure acts on the top.
 
         Args:
-            pressure: On the mantle of a cylinder, or on all sides of a box [Pa].
-            second: On front and back of a box, across y, instead [Pa].
+            pressure: Pressure on the lateral surface of a cylinder, or on all sides of a box [Pa].
+            second: Pressure on front and back of a box, across y, instead of `pressure` [Pa].
 
         Raises:
             InputError: for a second pressure on a cylinder.
-            SimulationError: if the forces do not come to balance.
+            SimulationError: if the forces do not reach equilibrium.
         """
         if second is not None:
             second = require_number("confine: second", second, NOT_NEGATIVE, "Pa")
@@ -79,7 +79,7 @@ class EndRig(SolidGrains):
 
     @property
     def confinement(self) -> float | None:
-        """Least pressure on the sides that was asked for [Pa], None without."""
+        """Smallest requested pressure on the sides [Pa]; None without pressure."""
         found = [one.pressure for one in self._presses() if TOP not in one.sides]
         return min(found, default=None)
 
@@ -91,7 +91,7 @@ class EndRig(SolidGrains):
         return wrapper.EndFrame(tension=self.tension)
 
     def _presses(self) -> list[wrapper.ConfinementController]:
-        """What presses on the sides, and on the top until it is driven."""
+        """Pressures on the sides, and on the top until it is driven."""
         kind = wrapper.ConfinementController
         return [one for one in self.built.engines if isinstance(one, kind)]
 
@@ -117,7 +117,7 @@ class EndRig(SolidGrains):
             self.built.add_engines(before=(one,))
 
     def _pressing_force(self) -> float:
-        """Least force with which a pressure acts on a whole side [N]."""
+        """Smallest force of a pressure on an entire side [N]."""
         sizes = self.built.specimen.dimensions
         width = sizes.get("width", sizes.get("diameter", 0.0))
         across = {BACK: width, FRONT: width}

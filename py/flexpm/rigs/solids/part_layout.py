@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How plates come onto a solid: before a part of its outside, or across its depth. SI units."""
+"""Add plates to a 3D specimen: on a patch of its surface, or along a line. SI units."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _UPRIGHT = 0.5
 
 
 class SolidPartLayout(PartLayout, SolidGrains):
-    """Base of a rig that lays parts on a solid."""
+    """Base of a rig that adds parts to a 3D specimen."""
 
     built: Model
     #: Where plates lie, by their numbers; jaws have none.
@@ -55,24 +55,31 @@ class SolidPartLayout(PartLayout, SolidGrains):
         strip: float | None = None,
         seated: bool = False,
     ) -> Part:
-        """Lay a plate against the part of the outside around a place.
+        """Add a plate on the part of the surface around a position.
 
         Args:
-            position: x, y and z, on the outside [m].
-            length: Edge of the cube around the place, or edges of a box along x, y and z, in which
-                the outside lies before the plate [m]. None: a roller, which bears along a line
-                across the depth through x and z of the place, on the bottom or from above.
-            normal: x, y and z, into the specimen; zero: that of the nearest flat side.
-            pinned: It does not slide as long as it presses.
-            friction: Coefficient, of one that is not pinned [-]; no roller has one.
-            bonded: It pulls, too, and slides freely; no roller does.
-            strip: Stiffness per area of a soft layer between, E / h of one of thickness h [Pa/m];
-                None: there is none. No line has one.
-            seated: It turns freely about the middle of its face, as on a spherical seat, and is
-                laid down on what is before it, as of the plane (deviation D95). No line does.
+            position: x, y and z of a point on the surface [m].
+            length: Edge of a cube around the position, or edges of a box along x, y and z; the
+                plate covers the surface within it [m]. None: a roller, which carries load along a
+                line across the depth through x and z of the position, on the bottom or from above.
+            normal: x, y and z of a direction into the specimen; zero: the normal of the nearest
+                flat side.
+            pinned: Prevent sliding while the support is pressed.
+            friction: Friction coefficient of a support that is not pinned [-]; not available for
+                rollers.
+            bonded: Also transmit tension, and slide freely; not available for rollers.
+            strip: Stiffness per area of a soft layer between plate and grains [Pa/m]: E / h for a
+                layer of thickness h; None: no layer. Not available for rollers.
+            seated: Allow free rotation about the middle of the plate's face, as on a spherical
+                seat. The plate starts at the inclination of the covered surface, as in 2D
+                (deviation D95). Not available for rollers.
+
+        Returns:
+            The plate.
 
         Raises:
-            InputError: for a place that is not on the outside, or a size out of range.
+            InputError: for a position that is not on the surface or that another part occupies, or
+                a size out of range.
         """
         seated = require_flag("support: seated", seated)
         specimen, at = self._specimen, require_vector("support: position", position, axes=SPACE)
@@ -106,17 +113,20 @@ class SolidPartLayout(PartLayout, SolidGrains):
         strip: float | None = None,
         seated: bool = False,
     ) -> Part:
-        """Lay a plate along a whole flat side.
+        """Add a plate along an entire flat side.
 
         Args:
-            side: 0 bottom, 1 right, 2 top, 3 left, 4 front, 5 back.
-            friction: Coefficient [-].
-            bonded: It pulls, too. It slides freely along itself.
+            side: Index of the side: 0 bottom, 1 right, 2 top, 3 left, 4 front, 5 back.
+            friction: Friction coefficient [-].
+            bonded: Also transmit tension. A bonded plate slides freely along itself.
             strip: As for `support` [Pa/m].
             seated: As for `support`.
 
+        Returns:
+            The plate.
+
         Raises:
-            InputError: for a side that is not flat, or that there is not.
+            InputError: for a side that is not flat, does not exist, or has another part on it.
         """
         seated = require_flag("platen: seated", seated)
         patch = side_patch(self._specimen, require_whole("platen: side", side))
@@ -133,21 +143,26 @@ class SolidPartLayout(PartLayout, SolidGrains):
         friction: float = 0.0,
         strip: float | None = None,
     ) -> Part:
-        """Lay a curved jaw across the depth of a disc; `contact_angle_of` records where it touches.
+        """Add a curved jaw across a disc's depth; `contact_angle_of` records its angle.
 
         Args:
-            position: x, y and z of the jaw's middle, on the mantle; y does not count [m].
-            radius: Radius of the arc, at least the disc's; 1.5 times that by the ISRM [m].
-            angle: Angle of the disc before it [rad], at most 2 pi / 3, which it has by default; one
-                of the disc's own radius needs it.
-            friction: Coefficient [-]. Between two smooth ones a disc is free to turn, and no
-                loading of it begins.
+            position: x, y and z of the middle of the jaw on the lateral surface, within 5 % of the
+                disc's radius [m]; y is ignored.
+            radius: Radius of the arc [m], at least the radius of the disc; the ISRM suggests 1.5
+                times the radius of the disc.
+            angle: Angle of the disc that the jaw can cover [rad], at most and by default 2 pi / 3.
+                It is required for a jaw with the radius of the disc.
+            friction: Friction coefficient [-]. Between two smooth jaws a disc is free to rotate,
+                and no loading can begin.
             strip: As for `support` [Pa/m].
 
+        Returns:
+            The plate.
+
         Raises:
-            InputError: for a specimen that is no disc, a place off its rim by more than 5 % of its
-                radius, a radius below the disc's, an angle out of range or missing, or where
-                another part lies.
+            InputError: for a specimen that is not a disc, a position off the rim or on
+                another part, a radius below the radius of the disc, or an angle that is out of
+                range or missing.
         """
         if self._specimen.kind != "solid-disc":
             raise InputError("jaw: the specimen is not a disc; use support() for other shapes")
@@ -171,7 +186,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
         return part
 
     def _line(self, at: Vector, inwards: Vector, pinned: bool) -> Part:
-        """A roller or a head: deviation D99."""
+        """Add a roller, or a line at the top: deviation D99."""
         given, upwards = any(inwards), inwards[2]
         low, high = box_around(self._specimen)
         if given and not abs(upwards) > _UPRIGHT:
@@ -220,7 +235,7 @@ class SolidPartLayout(PartLayout, SolidGrains):
         patch: Patch,
         requested: Vector | None,
     ) -> Part:
-        """Lay a plate before a patch that no other one has."""
+        """Add a plate on a patch that no other plate covers, or raise InputError."""
         for number, there in self._patches.items():
             if patch.overlaps(there):
                 other = Part(self, self.built.solver, "plate", number)

@@ -81,18 +81,20 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
         length: float = 1.0,
         strength: float = 0.0,
     ) -> None:
-        """Load the specimen by turning held nodes about an axis, each set like a rigid body.
+        """Load the specimen by rotating fixed nodes about an axis, each set like a rigid body.
 
-        The record's ``load`` is the sum of their moments about the axis [N m], its ``displacement``
-        the angle of each [rad]; stress and strain are these over `area` and `length`.
+        The column ``load`` of the record is the sum of the moments of all sets about the axis [N
+        m], and ``displacement`` is the rotation of each set [rad]. Stress and strain are load /
+        `area` and displacement / `length`.
 
         Args:
-            parts: Sets that turn right-handed about the axis.
-            back: Sets that turn the other way by the same angle.
-            about: x, y and z of a point on the axis of all [m], which stays. None: each turns about
-                the mean of its places, free to move, so that it bears a moment alone (D53).
-            axis: x, y and z of its direction.
-            area, length, strength: As of the plane.
+            parts: Sets that rotate right-handed about the axis.
+            back: Sets that rotate by the same angle in the opposite sense.
+            about: x, y and z of a point on the common axis of all sets, which does not move [m].
+                None: each set rotates about the mean of its positions and is free to translate, so
+                that only a moment acts (deviation D53).
+            axis: x, y and z of the direction of the axis.
+            area, length, strength: As in 2D.
 
         Raises:
             InputError: as `drive`.
@@ -106,7 +108,7 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
 
     @property
     def drives(self) -> Table:
-        """As of the plane, and whether the direction is the axis of a turn."""
+        """As in 2D, and whether the direction is the axis of a rotation."""
         return {**super().drives, "turns": self._frame.turns}
 
     @property
@@ -120,10 +122,10 @@ class SolidPartRig(SolidPartLayout, SolidPartStatics, PartRig):
 
     @property
     def parts(self) -> list[Table]:
-        """All parts as plain values: plates, then held nodes by their numbers.
+        """All parts as plain values: plates, then sets of fixed nodes, by index.
 
-        A place is that where the part was laid, or since when displacements count [m]; a face is
-        the trace of a plate along x and z [m].
+        ``position`` is the position at zero displacement [m]: where the part was added, or where it
+        was when displacements began to count. ``face`` is the trace of a plate along x and z [m].
         """
         names = ("normal", "area", "friction", "bonded")
         plates = [

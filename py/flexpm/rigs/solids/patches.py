@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where plates lie on the outside of a solid. SI units."""
+"""Patches of the surface of a 3D specimen that plates cover. SI units."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _OFF = 0.5
 
 @dataclass(frozen=True)
 class Patch:
-    """A part of the outside: what lies in a box and faces a normal."""
+    """Part of the surface that is in a box and faces a normal."""
 
     normal: Vector  #: into the specimen, a unit vector
     low: Vector  #: corners of the box [m]
@@ -52,7 +52,7 @@ class Patch:
     trace: list[list[float]]  #: line along x and z, none if it faces y; for maps [m]
 
     def overlaps(self, other: Patch) -> bool:
-        """Whether both face the same way and have more than an edge in common."""
+        """Whether both patches face the same side and share more than an edge."""
         if np.dot(self.normal, other.normal) < _SAME:
             return False
         low, high = np.maximum(self.low, other.low), np.minimum(self.high, other.high)
@@ -61,7 +61,7 @@ class Patch:
 
 
 def box_around(specimen: SolidSpecimen) -> tuple[FloatArray, FloatArray]:
-    """Corners of the box around a solid [m]."""
+    """Return the corners of the box around a 3D specimen [m]."""
     sizes = specimen.dimensions
     if specimen.kind == "box":
         return np.zeros(3), np.array([sizes["width"], sizes["depth"], sizes["height"]])
@@ -73,10 +73,10 @@ def box_around(specimen: SolidSpecimen) -> tuple[FloatArray, FloatArray]:
 
 
 def side_patch(specimen: SolidSpecimen, side: int) -> Patch:
-    """All of a flat side.
+    """Return the patch of an entire flat side.
 
     Raises:
-        InputError: for a side that is not flat, or that there is not.
+        InputError: for a side that is not flat or does not exist.
     """
     flat = FLAT[specimen.kind]
     if side not in flat:
@@ -95,10 +95,10 @@ def side_patch(specimen: SolidSpecimen, side: int) -> Patch:
 
 
 def sides_under(specimen: SolidSpecimen, side: object, hole: object) -> list[int]:
-    """Sides of a solid that a call of ``fluid`` names, the mantle among them.
+    """Return the sides of a 3D specimen in a call of ``fluid``, also a lateral surface.
 
     Raises:
-        InputError: for one that there is not, or a hole.
+        InputError: for a side that does not exist, or a hole.
     """
     if hole is not None:
         asked = f"fluid: hole = {quoted(hole)}, must not be given for a 3D specimen"
@@ -117,15 +117,16 @@ def sides_under(specimen: SolidSpecimen, side: object, hole: object) -> list[int
 def patch_around(
     specimen: SolidSpecimen, place: Vector | FloatArray, edges: FloatArray, normal: FloatArray
 ) -> Patch:
-    """What lies in a box around a place: at least half a mean diameter off it along the normal.
+    """Return the patch in a box around a position.
 
-    A box that comes to the end of the specimen goes beyond it, whatever the round-off.
+    Along the normal the box extends to at least half a mean diameter from the position. A box that
+    reaches the end of the specimen is extended beyond it, independent of round-off.
 
     Args:
-        specimen: The solid.
-        place: x, y and z of the middle [m].
-        edges: Lengths of the box along the axes [m].
-        normal: Into the specimen.
+        specimen: The 3D specimen.
+        place: x, y and z of the middle of the box [m].
+        edges: Lengths of the box along x, y and z [m].
+        normal: Direction into the specimen.
     """
     off = _OFF * specimen.mean_diameter
     least, most = box_around(specimen)
@@ -145,10 +146,10 @@ def patch_around(
 
 
 def edges_of(length: object) -> FloatArray:
-    """Edges of a box, from one number or from three [m].
+    """Return the edges of a box, (3,) [m], from a number or from three numbers.
 
     Raises:
-        InputError: for others, or one that is not above 0.
+        InputError: for another value, or a number that is not above 0.
     """
     if isinstance(length, list | tuple | np.ndarray):
         edges = require_vector("support: length", length, axes=SPACE)
@@ -157,10 +158,10 @@ def edges_of(length: object) -> FloatArray:
 
 
 def inwards_at(specimen: SolidSpecimen, place: Vector) -> FloatArray:
-    """Into the specimen from the flat side on which a place lies.
+    """Return the unit normal into the specimen of the flat side on which a position is.
 
     Raises:
-        InputError: for a place on none of them.
+        InputError: for a position that is not on a flat side.
     """
     low, high = box_around(specimen)
     off = {}

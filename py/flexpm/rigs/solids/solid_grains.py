@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all rigs of solid grains have in common. SI units."""
+"""Common parts of all rigs of 3D grains. SI units."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class SolidGrains(GrainRig):
 
     @property
     def warnings(self) -> list[str]:
-        """What makes the record doubtful, see `GrainRig.warnings`; grains that lie on others."""
+        """Reasons why the record is questionable: `GrainRig.warnings`, overlapping grains."""
         return super().warnings + doubts.of_overlap(self._solid.overlaps()["of_diameter"])
 
     @property

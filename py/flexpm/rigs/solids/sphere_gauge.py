@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mean strains of a solid from the centres of its spheres. Extension positive."""
+"""Mean strains of a 3D specimen from the centres of its spheres. Extension positive."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ _LAYER = 0.25
 
 
 class SphereGauge:
-    """Axial strain between bands of centres (D21), lateral strain at the waist (D80).
+    """Axial strain between bands of centres (D21), lateral strain in the central third (D80).
 
-    A face counts by the part of its height that lies in the middle third.
+    The weight of a face is the share of its height within the central third.
     """
 
     def __init__(self, specimen: SolidSpecimen) -> None:
-        """Find the faces of the mantle at the waist."""
+        """Find the faces of the lateral surface in the central third of the height."""
         height, centres = specimen.dimensions["height"], np.array(specimen.centres)
         grains, sides, vectors = outer_faces(specimen)
         low, high = outer_reach(specimen)
@@ -45,13 +45,14 @@ class SphereGauge:
                 self._across.append((k, gauge))
 
     def strains(self, centres: FloatArray, ways: FloatArray) -> tuple[float, float]:
-        """Axial strain, and the mean of both lateral strains [-].
+        """Return the axial strain, and the mean of both lateral strains [-].
 
-        A layer of one grain has only the other one, a column of them nan.
+        A layer with a thickness of a single grain has only the lateral strain of the other
+        direction; for a column of single grains the lateral strain is nan.
 
         Args:
-            centres: Where the centres were, (n, 3) [m].
-            ways: Their displacements since, (n, 3) [m].
+            centres: Initial centres, (n, 3) [m].
+            ways: Displacements of the centres, (n, 3) [m].
         """
 
         def found(gauge: StrainGauge, axis: int) -> tuple[float, float]:
@@ -66,12 +67,12 @@ class SphereGauge:
 
 
 def _owners(grains: IntArray, areas: FloatArray) -> list[tuple[int, float]]:
-    """Grains and areas of the faces whose area is above 0."""
+    """Return grains and areas of the faces with an area above 0."""
     there = areas > 0.0
     return list(zip(grains[there].tolist(), areas[there].tolist(), strict=True))
 
 
 def _apart(areas: FloatArray, places: FloatArray) -> float:
-    """Mean place where areas are above 0 less that where they are below, by areas [m]."""
+    """Return the difference of the area-weighted mean positions for areas above and below 0 [m]."""
     far, near = np.maximum(areas, 0.0), np.maximum(-areas, 0.0)
     return float(np.average(places, weights=far) - np.average(places, weights=near))

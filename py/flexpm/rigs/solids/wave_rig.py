@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A plane pulse through a solid along z: the test ``sonic`` in space, deviation D98. SI units."""
+"""A plane pulse through a 3D specimen along z: the test ``sonic``, deviation D98. SI units."""
 
 from __future__ import annotations
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stages of a script's own test that a rig of parts has beside confinement and loading."""
+"""Stages of a custom test between parts, in addition to confining pressure and loading."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stages that load by a plan: cycles, and a history of loads or ways. SI units."""
+"""Stages with a plan: load cycles, and a history of loads or displacements. SI units."""
 
 from __future__ import annotations
 
@@ -42,21 +42,22 @@ class PartCycles(PartPressures):
         low: float = 0.0,
         rate: float = 1.0,
     ) -> None:
-        """Load to `amplitude` and back to `low`, several times, and end there at rest.
+        """Load to `amplitude` and back to `low`, `count` times, and end there at rest.
 
-        Turns are within 0.1 % of the load that is asked for, or of the largest where that is 0; by
-        way they are at the next row of the record.
+        A load is reversed within 0.1 % of the requested load, or of the largest load if the
+        requested load is 0. A displacement is reversed at the next row of the record.
 
         Args:
-            amplitude: Load [N; N m of what turns], or way of the driven parts [m, or rad].
+            amplitude: Load [N; N m with `rotate`] or displacement of the driven parts [m; rad].
             count: Number of cycles.
             by: ``"load"`` or ``"displacement"``.
-            low: Load or way at the other end of a cycle.
-            rate: Factor on the default loading rate [-]; a way is gone at a constant rate.
+            low: Load or displacement at the other end of a cycle, in the unit of `amplitude`.
+            rate: Factor on the default loading rate [-]; with ``by="displacement"`` the rate is
+                constant.
 
         Raises:
-            InputError: for a value out of range, or where no part loads.
-            SimulationError: if the specimen does not bear the load.
+            InputError: for a value out of range, or if no part is driven.
+            SimulationError: if the specimen does not carry the load.
         """
         require_one_of("cycle: by", by, WAYS)
         unit = "N" if by == "load" else "m"
@@ -86,25 +87,30 @@ class PartCycles(PartPressures):
         by: str = "displacement",
         rate: float = 1.0,
     ) -> None:
-        """Follow a history of the load or the way of the driven parts.
+        """Follow a history of the load or the displacement of the driven parts.
 
-        With real masses the displacement follows its times, in straight lines between them, as a
-        boundary condition: waves carry it into the specimen, whose far end may be free, and the
-        stage ends in motion. With scaled masses, where time means nothing, and by load the values
-        are come to one after the other at the loading rate; equal ones that follow each other are
-        held until all is at rest, and so is the last one.
+        With real masses and ``by="displacement"`` the history is a boundary condition in time,
+        linear between its rows. Waves carry it into the specimen, whose far end may be free, and
+        the stage ends in motion.
+
+        With scaled masses time has no meaning. Then, and also with ``by="load"``, the values are
+        reached in sequence at the loading rate. The specimen comes to rest at the last value, and
+        at a value that is equal to the value before it.
 
         Args:
-            times: Rising [s], or a CSV file with a row of names, at most one row of units (as s, N,
-                kN, m, mm), and rows of time and value; columns behind them are left out.
-            values: One for each time [N, or m]; None with a file.
+            times: Increasing times, (n,) [s], or a CSV file. The file has a row of names, at most
+                one row of units (s, N, kN, m or mm), and rows of time and value; further columns
+                are ignored.
+            values: One value for each time, (n,) [N, or m]; None with a file.
             by: ``"load"`` or ``"displacement"``.
-            rate: Factor on the default loading rate [-], unused with real masses by way.
+            rate: Factor on the default loading rate [-]; unused with real masses and
+                ``by="displacement"``.
 
         Raises:
-            InputError: for a row that is not finite or whose time does not rise, which it names, a
-                way that does not begin where the parts are, or where no part loads.
-            SimulationError: if the specimen does not bear the load.
+            InputError: for a row that is not finite or whose time does not increase, with its
+                number. Also for a displacement that does not begin at the present displacement, or
+                if no part is driven.
+            SimulationError: if the specimen does not carry the load.
         """
         require_one_of("follow: by", by, WAYS)
         rate = require_number("follow: rate", rate, RATE)
@@ -137,7 +143,7 @@ class PartCycles(PartPressures):
         self._end_at("follow", by, wanted[-1])
 
     def _go(self, stage: str, by: str, before: float, value: float, rate: float) -> None:
-        """Go to a load, the last of it ever slower, or to a way at a row of the record."""
+        """Go to a load, decelerating in its last part, or to a displacement at a row."""
         if by == "displacement":
             self._go_to_strain(stage, value / self._frame.length, rate)
             return
@@ -167,7 +173,7 @@ class PartCycles(PartPressures):
             self._come_to_rest(stage, REST_CROSSINGS)
 
     def _begin_line(self, times: list[float], values: list[float], row: int) -> Span:
-        """Go in a straight line to the step next to the time of a row; rows may share a step."""
+        """Move linearly to the step closest to the time of a row; rows may share a step."""
         begun, end, last = (round((times[k] - times[0]) / yade.O.dt) for k in (row - 1, row, -1))
 
         def value(step: int) -> float:
@@ -179,7 +185,7 @@ class PartCycles(PartPressures):
         return Span(end - begun, end - begun)
 
     def _require_start(self, wanted: list[float]) -> None:
-        """Refuse a way that does not begin where the parts are."""
+        """Reject a history of displacements that does not begin at the present displacement."""
         rows = self.record["displacement"].tolist() if self._begun else []
         now = rows[-1] if rows else 0.0
         if abs(wanted[0] - now) > _SAME_WAY * max(map(abs, wanted)):

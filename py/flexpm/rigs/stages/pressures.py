@@ -66,7 +66,7 @@ class PartPressures(PartRest):
         self._press_until_rest("fluid", begin, force, what)
 
     def _press_all(self, pressures: Mapping[Part, float]) -> None:
-        """Press several parts at once, see ``PartRig.press``."""
+        """Press several parts simultaneously, see ``PartRig.press``."""
         parts, values = [], []
         for part, pressure in pressures.items():
             parts.append(require_part("press: part", self, part, Part))

@@ -26,23 +26,25 @@ class PartRest(PartStill):
     """Base of a rig of parts whose specimen settles, relaxes and is unloaded."""
 
     def settle(self, *, moving: bool = False, transits: float = REST_CROSSINGS) -> None:
-        """Let the specimen come to rest under its weight, which rises from 0 where nothing moved.
+        """Step until the specimen is at rest under its weight.
 
-        Damping is on meanwhile (0.7, if it was below 0.2) and then what it was. At rest the
-        reactions of the parts are the weight within 0.1 %. Displacements, strains and gauges of a
-        record that begins later count from there on; it has its first row as a loading begins.
-        Until then `reading` returns what a gauge reads.
+        If the scene has not been stepped before, the weight rises from 0 in ten wave transit times.
+        Meanwhile damping is on: a factor below 0.2 is raised to 0.7 and restored afterwards. At
+        rest the reactions of the parts are equal to the weight within 0.1 %. Displacements, strains
+        and gauges of a record that begins later are measured from this state; its first row is
+        written when a loading begins. Until then `reading` returns the readings of the gauges.
 
         Args:
-            moving: What the weight sets in motion, as a block that slides or topples, goes on: no
-                error then, and damping ends after the transits.
-            transits: Times that a wave takes through the specimen, or a quarter of its slowest
-                swing, after which it must be at rest, or with `moving` damping ends, beside ten in
-                which the weight rises.
+            moving: Accept motion under the weight, for example a block that slides or topples: no
+                error is raised, and damping ends after `transits`.
+            transits: Duration after which the specimen must be at rest, or, with `moving`, damping
+                ends, in addition to the ten transits in which the weight rises [-]. The unit is the
+                wave transit time of the specimen or, if longer, a quarter of its slowest natural
+                period.
 
         Raises:
             InputError: without gravity, or without parts.
-            SimulationError: if it does not come to rest.
+            SimulationError: if the specimen is not at rest by then.
         """
         moving = require_flag("settle: moving", moving)
         transits = require_number("settle: transits", transits, CROSSINGS)
@@ -71,17 +73,17 @@ class PartRest(PartStill):
             )
 
     def relax(self, *, transits: float = REST_CROSSINGS) -> None:
-        """Hold what is driven, and let the stored energy come to rest.
+        """Stop the driven parts, and step until the specimen is at rest.
 
-        Damping is on meanwhile (0.7 if it was below 0.2, with real masses) and then what it was.
-        At rest all forces balance within 0.1 % of the largest one on a part, or the stored energy
-        is below 1e-7 of the largest of the record.
+        With real masses damping is on meanwhile: a factor below 0.2 is raised to 0.7 and restored
+        afterwards. At rest all forces are balanced within 0.1 % of the largest force on a part, or
+        the stored energy is below 1e-7 of its maximum in the record.
 
         Args:
-            transits: Times that a wave takes through the specimen after which it must be at rest.
+            transits: Duration after which the specimen must be at rest, in wave transit times [-].
 
         Raises:
-            SimulationError: if it does not come to rest.
+            SimulationError: if the specimen is not at rest by then.
         """
         transits = require_number("relax: transits", transits, CROSSINGS)
         self._require_scene("relax")
@@ -89,16 +91,16 @@ class PartRest(PartStill):
         self._come_to_rest("relax", transits)
 
     def dwell(self, transits: float = 10.0, *, by: str = "displacement") -> None:
-        """Go on for a time while what is driven stands, or while its load stays.
+        """Step for a time at a constant displacement or a constant load of the driven parts.
 
         Args:
-            transits: Times that a wave takes through the specimen.
-            by: ``"displacement"``: the driven parts stand; ``"load"``: they go where the load
-                stays within 0.1 % of what it is as the dwell begins, and no damping is changed.
+            transits: Duration in wave transit times [-].
+            by: ``"displacement"``: the driven parts stop. ``"load"``: the driven parts move so that
+                the load stays within 0.1 % of its value at the beginning; damping is not changed.
 
         Raises:
-            InputError: for a load without a part that loads.
-            SimulationError: if the load does not stay.
+            InputError: for ``by="load"`` if no part is driven.
+            SimulationError: if the load cannot be kept constant.
         """
         transits = require_number("dwell: transits", transits, CROSSINGS)
         require_one_of("dwell: by", by, WAYS)
@@ -113,16 +115,16 @@ class PartRest(PartStill):
             self._stage(begin, lambda: self.diverged, "dwell")
 
     def unload(self, *, rate: float = 1.0, transits: float = REST_CROSSINGS) -> None:
-        """Take the load of the driven parts back to 0, where all is at rest; pressures stay.
+        """Reduce the load of the driven parts to 0, and end at rest; pressures do not change.
 
         Args:
-            rate: Factor on the default loading rate, at the fastest [-].
-            transits: Times that a wave takes through the specimen for the last of the load, beside
-                those of the way back.
+            rate: Largest factor on the default loading rate [-].
+            transits: Largest duration of the last part of the unloading, in wave transit times [-];
+                the duration of the return displacement is added.
 
         Raises:
             InputError: if no loading has begun.
-            SimulationError: if the load does not come to 0.
+            SimulationError: if the load does not reach 0.
         """
         rate = require_number("unload: rate", rate, RATE)
         transits = require_number("unload: transits", transits, CROSSINGS)
@@ -140,11 +142,12 @@ class PartRest(PartStill):
         return self._span_of(longest, RAMP_CROSSINGS + 0.2 * (longest - RAMP_CROSSINGS), swing)
 
     def _swing_steps(self) -> float:
-        """Steps of a quarter of the slowest swing under the weight, 0 where nothing holds it: D74.
+        """Return a quarter of the slowest natural period under the weight [steps]: deviation D74.
 
-        Rayleigh's quotient of the static solution: what stands on few or soft contacts rocks far
-        more slowly than a wave crosses it. A column that swings along itself has the crossing,
-        and so has a solid, whose static solution is without weight.
+        Follows from Rayleigh's quotient of the static solution, since a specimen on few or soft
+        contacts rocks far more slowly than a wave travels through it. Returns 0 if nothing supports
+        the weight. A column that vibrates along itself has the wave transit time, and so has a 3D
+        specimen, whose static solution has no weight.
         """
         try:
             ways = self.elastic().displacements
@@ -172,7 +175,7 @@ class PartRest(PartStill):
 
     @property
     def _missing_reaction(self) -> float:
-        """Ratio of the missing reactions of all parts to the weight [-]; 0 if fluids press, too."""
+        """Ratio of the missing reactions of all parts to the weight [-]; 0 if fluids also press."""
         if self._force_of_fluids:
             return 0.0
         *across, up = np.sum([part.force for part in self._all_parts], axis=0)

@@ -49,7 +49,7 @@ class PartStill(PartStatics, GrainRig):
         return mass * self.built.gravity
 
     def _come_to_rest(self, stage: str, crossings: float) -> None:
-        """A part of a stage: stand until the stored energy is at rest, see `relax`."""
+        """Stop until the stored energy is at rest, as a part of a stage; see `relax`."""
         begin = partial(self._begin_rest, crossings)
         entered = self._damped_stage(begin, partial(self._has_come_to_rest, crossings), stage)
         if entered and not self.diverged and not self._is_at_rest():
@@ -66,7 +66,7 @@ class PartStill(PartStatics, GrainRig):
         return self._span_of(crossings, 0.3 * crossings)
 
     def _has_come_to_rest(self, crossings: float, least: int = 0) -> bool:
-        """Whether a stage of at least some crossings is over: it looks after each."""
+        """Whether a stage of `least` transit times is over; checked after each transit time."""
         steps = yade.O.iter - self._runner.position.stage_start
         crossing = self._crossing_of(crossings)
         looks = steps > least * crossing and steps % crossing == 0
@@ -124,15 +124,16 @@ class PartStill(PartStatics, GrainRig):
         until: str = "rest",
         rate: float = 1.0,
     ) -> None:
-        """A part of a stage: drive on until the load is what it is to be.
+        """Drive until the load has reached a value, as a part of a stage.
 
         Args:
             stage: Name of the stage.
-            stress: That of the record to come to [Pa]; None: that as this part begins.
-            crossings: Most wave crossings for the last of the way.
-            until: ``"rest"``: all is at rest there, with damping on; ``"there"``: it is there;
-                ``"end"``: the crossings are over.
-            rate: Factor on the fastest velocity [-].
+            stress: Target stress of the record [Pa]; None: the stress at the beginning of this
+                part.
+            crossings: Largest duration of the last part of the displacement [wave transit times].
+            until: End of this part. ``"rest"``: the load is reached and the specimen at rest, with
+                damping on; ``"there"``: the load is reached; ``"end"``: the duration is over.
+            rate: Factor on the largest velocity [-].
         """
         targets: list[float] = []
 
@@ -224,7 +225,7 @@ class PartStill(PartStatics, GrainRig):
     # What there is
 
     def _span_of(self, longest: float, likely: float, least: float = 0.0) -> Span:
-        """Length of a stage by wave crossings of at least so many steps, and its measurements."""
+        """Return the length of a stage; a transit time has at least `least` steps."""
         crossing = math.ceil(max(self._crossing_steps(), least))
         self._measure_every(max(crossing // MEASURED_A_CROSSING, 1))
         return Span(math.ceil(longest) * crossing, math.ceil(likely) * crossing)

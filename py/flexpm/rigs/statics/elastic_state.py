@@ -71,7 +71,11 @@ class ElasticState(Snapshot):
 
 
 def required_loading(displacement: float, load: float | None) -> tuple[float, float | None]:
-    """Way [m, or rad] and load [N, or N m] of a static solution; at most one of them is given."""
+    """Return displacement [m, or rad] and load [N, or N m] of a static solution.
+
+    Raises:
+        InputError: for a value that is not finite, or if both are given.
+    """
     displacement = require_number("elastic: displacement", displacement, unit="m")
     if load is None:
         return displacement, None
@@ -109,29 +113,31 @@ class PartStatics(PartLoads):
         displacement: float = 0.0,
         load: float | None = None,
     ) -> ElasticState:
-        """Where the specimen would come to rest, if no contact broke further: a static solution.
+        """Return the equilibrium of the specimen without further damage: a static solution.
 
-        The solution is linear about the present state, so that displacements must be small beside
-        the grains. Cracks, notches, and plates that are not bonded bear pressure alone: their
-        points open and close until all agree. What is pressed together without a bond sticks, from
-        where it closes on; ``beyond_friction`` counts points that would slide, and the few that
-        would open if they stuck and bear no shear (deviation D72). Damage stays as it is.
-        Gravity acts, and so do the pressures that act now. The scene is not changed.
+        The solution is linear about the present state, so that displacements must be small compared
+        with the grains. Cracks, notches and unbonded plates carry compression only: their points
+        open and close until the solution is consistent. Unbonded points in compression stick from
+        the position where they close. ``beyond_friction`` counts points that would slide, and the
+        few points that would open if they stuck and carry no shear (deviation D72). Damage does not
+        change. Gravity and all present pressures act. The scene is not changed.
 
         Args:
-            pressures: On parts [Pa], beside those that `press` has given, or in their place.
-            displacement: How far the driven parts go from here, along the loading [m], or turn
-                [rad]; 1.0 gives the load of a unit displacement, the stiffness, where nothing
-                opens or closes.
-            load: Sum of what the driven parts push [N], or of their moments [N m], in place of a
+            pressures: Pressure on each part [Pa], in addition to the pressures of `press`; replaces
+                the earlier pressure on the same part.
+            displacement: Displacement of the driven parts along the loading, from the present state
+                [m], or their rotation [rad]. The load for 1.0 is the stiffness if no point opens or
+                closes.
+            load: Sum of the forces [N] or moments [N m] of the driven parts, instead of a
                 displacement.
 
         Returns:
-            A snapshot that also tells forces and displacements of the parts.
+            A snapshot that also has the forces and displacements of the parts.
 
         Raises:
-            InputError: for what is no part of this rig or a value out of range, and where parts
-                leave the specimen, or a piece of it, free to move: it names the motion.
+            InputError: for an object that is not a part of this rig, or a value out of range. Also
+                if the specimen, or a piece of it, is free to move between the parts: the message
+                names the motion.
         """
         frame = self._frame
         displacement, load = required_loading(displacement, load)

@@ -23,23 +23,28 @@ class EndStatics(GrainRig):
     def elastic(
         self, pressure: float | None = None, *, displacement: float = 0.0, load: float | None = None
     ) -> ElasticState:
-        """Where the specimen would come to rest, if no contact broke further: a static solution.
+        """Return the equilibrium of the specimen without further damage: a static solution.
 
-        It is as that of ``PartRig.elastic``: linear about the present state, points without a bond
-        open and close until all agree, and the scene is not changed (deviation D72). The ends are
-        those that the test has, or would have: nodes of flexible grains, plates for others. What
-        smooth plates leave free to slide is held along them at the middle of the lower end.
+        As with ``PartRig.elastic``, the solution is linear about the present state, unbonded points
+        open and close until the solution is consistent, and the scene is not changed (deviation
+        D72). The ends are the ends that the test has or would have: nodes of deformable grains,
+        plates for other grains. A specimen that is free to slide along smooth plates is fixed along
+        them in the middle of the lower end.
 
         Args:
-            pressure: On the sides, and on a top that is not driven [Pa]. None: what acts now.
-            displacement: How far the upper end goes along the loading [m], from where the pressure
-                has brought it. A plate's way is more than that of the grains: its contacts give,
-                too.
-            load: What it bears in the end, along the loading [N], in place of a displacement.
+            pressure: Pressure on the sides, and on a top that is not driven [Pa]. None: the present
+                pressure.
+            displacement: Displacement of the upper end along the loading [m], relative to the state
+                under the pressure. A plate moves further than the grains, since its contacts also
+                deform.
+            load: Final load on the specimen along the loading [N], instead of a displacement.
+
+        Returns:
+            A snapshot of the equilibrium.
 
         Raises:
-            InputError: for a value out of range, a pressure on a disc, and a specimen of which a
-                piece is free to move: it names the motion.
+            InputError: for a value out of range, a pressure on a disc, or a specimen of which a
+                piece is free to move; the message names the motion.
         """
         displacement, load = required_loading(displacement, load)
         if pressure is not None:

@@ -73,20 +73,23 @@ class SolidPartStatics(PartStatics):
         displacement: float = 0.0,
         load: float | None = None,
     ) -> SolidElasticState:
-        """Where the unloaded solid would come to rest, if all of it stayed elastic.
+        """Return the equilibrium of the unloaded 3D specimen if all of it stays elastic.
 
-        Weights have no part in it. Plates that are not bonded press alone, as of the plane, where
+        Weights do not act. Unbonded plates carry compression only, as in 2D, on the points that
         they touch at the beginning.
 
         Args:
-            pressures: On parts [Pa]: they are free to move along their normals.
-            displacement: How far the driven parts, or a machine's crosshead, go along the loading
-                [m], or turn [rad].
-            load: Sum of what they push [N], or of their moments [N m], in place of a
+            pressures: Pressure on each part [Pa]; these parts are free to move along their normals.
+            displacement: Displacement of the driven parts, or of the crosshead of a machine, along
+                the loading [m], or their rotation [rad].
+            load: Sum of the forces [N] or moments [N m] of the driven parts, instead of a
                 displacement.
 
+        Returns:
+            A snapshot that also has the forces and displacements of the parts.
+
         Raises:
-            InputError: as of the plane, and once a step has been done.
+            InputError: as in 2D, and if the scene has been stepped.
         """
         displacement, asked = required_loading(displacement, load)
         frame = self._frame
@@ -117,7 +120,7 @@ class SolidPartStatics(PartStatics):
 
 
 class _Sum:
-    """Weighted sum of small linear solutions, added to the state at rest."""
+    """Weighted sum of small linear solutions, added to the unloaded state."""
 
     def __init__(self, solid: SolidModel) -> None:
         self._solid, still = solid, solid.snapshot()
