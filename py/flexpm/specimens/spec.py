@@ -185,11 +185,14 @@ class SpecimenSpec:
         )
 
     def with_network(self, network: Table, lines: Lines) -> SpecimenSpec:
-        """Return the same specimen, cut by the traces of a network.
+        """Return the spec of the same specimen, cut by the traces of a network.
 
         Args:
             network: Table of the network.
             lines: Generated traces of the network.
+
+        Returns:
+            The spec.
 
         Raises:
             InputError: for a set with the name of an existing joint.

@@ -238,18 +238,21 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
     ) -> Specimen:
         """Return the specimen cut by the traces of a fracture network, as ``--network`` does.
 
-        Each set of traces is a joint, whose law the material has.
+        Each set of traces is a joint, which needs a joint law in the material.
 
         Args:
-            network: TOML file of the network, or the same as a table: its ``seed``, and for each
+            network: TOML file of the network, or its content as a table: the ``seed``, and for each
                 joint under ``set`` its P21 ``intensity`` [1/m] and the laws ``length`` [m] and
                 ``orientation`` [degree].
-            seed: Counts before that of the network; the same seed draws the same traces.
+            seed: Seed that replaces the network's seed; equal seeds generate equal traces.
             progress: Called with (lines done, lines, text).
 
+        Returns:
+            The cut specimen.
+
         Raises:
-            InputError: for a value out of range, more than 20 000 traces, or none at all, for a set
-                with the name of a joint that is there already, and as ``with_joints``.
+            InputError: for a value out of range, a network without traces or with more than 20 000
+                traces, a set with the name of an existing joint, and as ``with_joints``.
         """
         from ..joints.network import Network
 
@@ -263,10 +266,12 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         return replace(self.with_joints(lines, progress), spec=spec)
 
     def network_intensities(self) -> dict[str, dict[str, float]]:
-        """P21 of each set of a network [1/m], as ``target``, ``generated`` and ``cut``.
+        """Return the P21 of each set of a network [1/m], as ``target``, ``generated`` and ``cut``.
 
-        Generated is that of the traces in the specimen, which scatters about the target from seed
-        to seed; cut is that of the contacts which they have made, with their bends (D35).
+        ``target`` is the requested intensity. ``generated`` is the intensity of the generated
+        traces in the specimen; it scatters about the target from seed to seed. ``cut`` is the
+        intensity of the contacts on the traces, which deviate from the traces to follow grains
+        (deviation D35).
         """
         ends = dict(zip(self.spec.joint_names or (), self.joint_lines(), strict=True))
         area, asked = float(np.sum(self.tessellation.cell_areas)), self.spec.asked_intensities
@@ -312,9 +317,10 @@ class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
         return [ends[self.edge_joints == number] for number in range(count)]
 
     def joint_deviations(self) -> dict[str, float]:
-        """Largest distance of each joint's contacts from its lines, which bends to grains [m].
+        """Return the largest distance between each joint's contacts and its lines, by name [m].
 
-        Deviation D35; a joint of a file without its lines has none.
+        The cut deviates from the requested lines to follow grains (deviation D35); 0 for a straight
+        cut. A joint from a file without its lines is left out.
         """
         least, found = _STRAIGHT * self.mean_diameter, {}
         for name, ends in zip(self.spec.joint_names or (), self.joint_lines(), strict=True):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether what a specimen file holds is a specimen: types, numbers, geometry. Lengths in metres.
+"""Checks of the content of a specimen file: types, numbers, geometry. Lengths in metres.
 
-A checksum tells that a file is as it was written, not that what was written has a sense.
+A checksum proves that a file is unchanged, but not that its content is consistent.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def _is_outline(value: object) -> bool:
 
 
 def _is_cuts(value: object) -> bool:
-    """What came of the lines of each joint, by its name."""
+    """Whether a value is a table of joint names and the results of their cuts."""
     return isinstance(value, Mapping) and all(
         isinstance(cut, Mapping)
         and _CUT.keys() >= cut.keys() >= _CUT.keys() - {"on", "reason"}
@@ -107,10 +107,10 @@ _SPEC: dict[str, Rule] = {
 
 
 def require_types(content: Table) -> None:
-    """Check that each key is there and of its type, and that lists are as long as each other.
+    """Check that each key exists and has its type, and that related lists have equal lengths.
 
     Raises:
-        InputError: for the first that is not.
+        InputError: for the first key that does not.
     """
     require_rules(content, _KEYS, _LATER)
     cells = len(content["cells"])
@@ -131,7 +131,7 @@ _EDGES = ("sides", "joints")
 
 
 def spec_of(content: Table) -> SpecimenSpec:
-    """What the specimen of a file was made from.
+    """Return the spec of the specimen in a file.
 
     Raises:
         InputError: for a field that is unknown, of another type or out of range.
@@ -141,16 +141,16 @@ def spec_of(content: Table) -> SpecimenSpec:
 
 
 def require_sense(found: Table, sides: IntArray, joints: int, tiling: Tiling) -> None:
-    """Check that arguments of Specimen that a file gave fit each other.
+    """Check that the arguments of `Specimen` from a file are consistent.
 
     Args:
         found: The arguments.
-        sides: Rows start, end, side of the edges on the outline.
-        joints: Number of edges that are on joints.
+        sides: Start, end and side of each edge on the outline, (n, 3).
+        joints: Number of edges on joints.
         tiling: The cells.
 
     Raises:
-        InputError: for what does not fit.
+        InputError: for arguments that are not consistent.
     """
     _require_outline(found)
     _require_sides(found, sides)
@@ -162,7 +162,7 @@ def require_sense(found: Table, sides: IntArray, joints: int, tiling: Tiling) ->
 
 
 def _require_outline(found: Table) -> None:
-    """Shape, sizes and holes are those that the spec names."""
+    """Check that shape, sizes and holes are the shape, sizes and holes of the spec."""
     import numpy as np
 
     from .. import outlines, packed
@@ -187,7 +187,7 @@ def _require_outline(found: Table) -> None:
 
 
 def _require_sides(found: Table, sides: IntArray) -> None:
-    """Edges on the outline are those of one cell alone, each on the side whose number it has."""
+    """Check that each outline edge belongs to one cell and lies on the side with its index."""
     import numpy as np
 
     from ..kernel_input import Circle
@@ -229,7 +229,7 @@ def _require_sides(found: Table, sides: IntArray) -> None:
 
 
 def _off(points: FloatArray, starts: FloatArray, along: FloatArray) -> FloatArray:
-    """Distances (n, 2) of two points each from segments."""
+    """Return the distances of two points each from segments, (n, 2)."""
     import numpy as np
 
     from_start = points - starts[:, None]
@@ -242,7 +242,7 @@ def _off(points: FloatArray, starts: FloatArray, along: FloatArray) -> FloatArra
 
 
 def _require_cells(found: Table) -> None:
-    """Cells are those of their discs, or those whose checksum the spec has."""
+    """Check that the cells follow from their discs, or have the checksum in the spec."""
     import numpy as np
 
     from .. import packed
@@ -271,7 +271,7 @@ def _require_cells(found: Table) -> None:
 def _require_points(
     vertices: FloatArray, corners: IntArray, offsets: IntArray, discs: FloatArray
 ) -> None:
-    """Reference points lie in their cells, or hardly out of them."""
+    """Check that reference points are in their cells, or outside by a tolerance at most."""
     import numpy as np
 
     sizes = np.diff(offsets)
@@ -288,7 +288,7 @@ def _require_points(
 
 
 def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
-    """So many joints are those of the spec, on edges between cells, near their lines."""
+    """Check the joints: number as in the spec, on edges between cells, near their lines."""
     import numpy as np
 
     from ...joints.bend import largest_bend
@@ -340,7 +340,7 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
 
 
 def _checksums(lines: Lines) -> Iterable[str]:
-    """Checksums of joints that may have been cut one after the other, or some at a time."""
+    """Yield the checksums of joints that may have been cut one by one or several in a call."""
     names = [*lines]
     reached: dict[int, set[str | None]] = {0: {None}}
     for end in range(1, len(names) + 1):
@@ -353,7 +353,7 @@ def _checksums(lines: Lines) -> Iterable[str]:
 
 
 def _require_factors(found: Table) -> None:
-    """Strengths and minerals are those that the spec names."""
+    """Check that strengths and minerals are the strengths and minerals of the spec."""
     from .. import strengths as contact_strengths
     from ..kernel_input import checksum, checksums_of_starts
 

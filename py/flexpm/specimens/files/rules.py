@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What values of a specimen file must be, one by one; the plane and space share it."""
+"""Rules for the values of a specimen file, shared by 2D and 3D."""
 
 from __future__ import annotations
 
@@ -16,32 +16,32 @@ Rule = Callable[[object], bool]
 
 
 def refuse(what: str) -> InputError:
-    """Error of a file whose content has no sense."""
+    """Return the error of a file with inconsistent content."""
     return InputError(f"specimen file: {what}; save the specimen again")
 
 
 def is_count(value: object) -> bool:
-    """Whether a value is a whole number from 0 on that the kernel can count with."""
+    """Whether a value is an integer >= 0 that fits into the integers of the kernel."""
     return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**31
 
 
 def is_number(value: object) -> TypeGuard[float]:
-    """Whether a value is a number of a length's size."""
+    """Whether a value is a number in the range of lengths."""
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e9
 
 
 def is_positive(value: object) -> bool:
-    """Whether a value is such a number above 0."""
+    """Whether a value is a number in the range of lengths, and above 0."""
     return is_number(value) and value > 0.0
 
 
 def is_text(value: object) -> bool:
-    """Whether a value is a text."""
+    """Whether a value is a string."""
     return isinstance(value, str)
 
 
 def list_of(rule: Rule, least: int = 0, most: float = math.inf) -> Rule:
-    """Rule of a list of what fulfils another."""
+    """Return the rule of a list with `least` to `most` items that all satisfy `rule`."""
 
     def holds(value: object) -> bool:
         return isinstance(value, list) and least <= len(value) <= most and all(map(rule, value))
@@ -50,25 +50,25 @@ def list_of(rule: Rule, least: int = 0, most: float = math.inf) -> Rule:
 
 
 def row_of(columns: int, rule: Rule = is_number) -> Rule:
-    """Rule of a list of so many numbers."""
+    """Return the rule of a list of `columns` values that all satisfy `rule`."""
     return list_of(rule, columns, columns)
 
 
 def or_none(rule: Rule) -> Rule:
-    """Rule of what may be missing."""
+    """Return the rule of a value that may be None."""
     return lambda value: value is None or rule(value)
 
 
 def require_rules(content: Table, rules: Mapping[str, Rule], later: Sequence[str] = ()) -> None:
-    """Check that each key is there and of its type.
+    """Check that each key exists and that its value satisfies its rule.
 
     Args:
         content: Content of the file.
-        rules: What each key holds.
-        later: Keys that files of earlier versions lack.
+        rules: Rule of each key.
+        later: Keys that files of earlier versions do not have.
 
     Raises:
-        InputError: for the first that is not.
+        InputError: for the first key that is missing or whose value breaks its rule.
     """
     for name, holds in rules.items():
         if name in content and not holds(content[name]):
@@ -78,10 +78,10 @@ def require_rules(content: Table, rules: Mapping[str, Rule], later: Sequence[str
 
 
 def spec_values(given: Table, names: Sequence[str], rules: Mapping[str, Rule]) -> Table:
-    """Fields of a spec that a file holds; what has no rule the spec checks itself.
+    """Return the fields of a spec in a file; the spec itself checks fields without a rule.
 
     Raises:
-        InputError: for a field that is unknown or of another type.
+        InputError: for an unknown field, or a field of another type.
     """
     for name, value in given.items():
         if name not in names:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a specimen comes from that commands and studies ask for.
+"""Source of the specimen of a command or a study.
 
-Nothing heavy is loaded for it, but numpy and scipy where a fracture network is drawn.
+Only light modules are loaded, except numpy and scipy if a fracture network is generated.
 """
 
 from __future__ import annotations
@@ -29,16 +29,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SpecimenSource:
-    """A packing or a file of a specimen, lines of joints that cut it, then a fracture network.
+    """A packing or a specimen file, joints that cut it, and then a fracture network.
 
     Attributes:
-        plain: What the specimen is made from before these joints cut it.
-        file: File of the specimen; None: it is packed.
-        lines: Lines of the joints, which were read once: their file may be a pipe; None: no joints.
-        network: The network; None: none.
-        traces: What was drawn of it.
+        plain: Spec of the specimen before these joints cut it.
+        file: File of the specimen; None: the specimen is packed.
+        lines: Lines of the joints; None: no joints. The file is read only once, since it may be a
+            pipe.
+        network: The fracture network; None: no network.
+        traces: Generated traces of the network.
         origin: Point of a map of joints at the specimen's origin [m]; None: no map.
-        notes: What the reader of a map has to tell, a line each.
+        notes: Notes of the reader of a map, one line each.
     """
 
     plain: AnySpec
@@ -61,20 +62,23 @@ class SpecimenSource:
         joint_name: str | None = None,
         joint_origin: joint_lines.Point | None = None,
     ) -> SpecimenSource:
-        """Read what files there are.
+        """Read the given files.
 
         Args:
-            packed: A packing, or None if there is a file of a specimen.
-            file: The specimen's file.
-            joints: A CSV file of joints, or a map of them as GeoJSON.
-            network: A TOML file of a fracture network.
-            network_seed: Counts before its own seed.
+            packed: Spec of a packing; None if there is a specimen file.
+            file: Specimen file.
+            joints: CSV file of joints, or a map of joints as GeoJSON.
+            network: TOML file of a fracture network.
+            network_seed: Seed that replaces the network's seed.
             joint_name: Property of the map that names joints, see ``geojson.read``.
-            joint_origin: Point of the map at the specimen's origin [m], as there.
+            joint_origin: Point of the map at the specimen's origin [m], see ``geojson.read``.
+
+        Returns:
+            The source.
 
         Raises:
-            InputError: for a file that cannot be read, or that holds something else, and for a
-                network that cannot be drawn.
+            InputError: for a file that cannot be read or has another content, or a network that
+                cannot be generated.
         """
         outline = None
         if file is not None:
@@ -118,7 +122,7 @@ class SpecimenSource:
 
     @property
     def spec(self) -> AnySpec:
-        """What the specimen is made from, joints included."""
+        """Spec of the specimen, joints included."""
         spec = self.plain
         if isinstance(spec, SolidSpec):
             return spec
@@ -134,8 +138,11 @@ class SpecimenSource:
         Args:
             progress: Called with (steps done, steps expected, text).
 
+        Returns:
+            The specimen.
+
         Raises:
-            InputError: for discs that do not fit, and lines that cut nothing.
+            InputError: for discs that do not fit, or lines that do not cut anything.
         """
         if isinstance(self.plain, SolidSpec):
             from ..space.specimen import SolidSpecimen

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Maps of orientations as ``.ang`` files of TSL and EDAX, on square and hexagonal grids."""
+"""Read maps of orientations from ``.ang`` files of TSL and EDAX, on square and hexagonal grids."""
 
 from __future__ import annotations
 
@@ -32,12 +32,18 @@ _NO_ANGLE = 4.0 * math.pi - 1e-3
 
 
 def read(path: Path) -> OrientationMap:
-    """Read a map; its frame of a crystal has x along a, y along b*.
+    """Read a map, in a crystal frame with x along a and y along b*.
 
-    Points of negative confidence, or with angles of 4 pi, are not indexed.
+    Points with a negative confidence, or with angles of 4 pi, are not indexed.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The map.
 
     Raises:
-        InputError: for a file that is none, or broken: with its line.
+        InputError: for a file that is not an ``.ang`` file, or a broken line, with its number.
     """
     text = MapText(path)
     head: dict[str, tuple[str, int]] = {}
@@ -92,7 +98,7 @@ def read(path: Path) -> OrientationMap:
 
 
 def _indices(text: MapText, phase: FloatArray, indexed: BoolArray, numbers: list[int]) -> IntArray:
-    """Index of the phase of each point; a file of one phase may number it 0."""
+    """Return the phase index of each point, (n,); a file with one phase may number it 0."""
     found = np.full(len(phase), -1)
     for index, number in enumerate(numbers):
         found[phase == number] = index

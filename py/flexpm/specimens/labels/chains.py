@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Chains of an image of pieces: the lines between its junctions, each of which two pieces share.
+"""Chains of an image of pieces: lines between junctions, each shared by two pieces.
 
 Lengths in pixels. A chain begins and ends where three or more lines meet, or at a corner of the
 image.
@@ -26,20 +26,20 @@ class Chain:
 
     @property
     def is_straight(self) -> bool:
-        """Whether it goes along one row or column."""
+        """Whether the chain follows a single row or column."""
         return bool(np.ptp(self.raster, axis=0).min() == 0.0)
 
 
 @dataclass(frozen=True)
 class Network:
-    """All chains, and how pieces are made of them."""
+    """All chains, and the chains of each piece."""
 
     chains: list[Chain]
     pieces: list[list[tuple[int, bool]]]  #: chains around each, and whether each goes forwards
 
     @classmethod
     def of(cls, image: IntArray) -> Network:
-        """The lines of an image of pieces, none of which goes round others."""
+        """Return the lines of an image of pieces, none of which encloses another piece."""
         width = image.shape[1] + 1
         degree = Corners.of(image).degree().ravel()
         junction = degree > 2
@@ -70,7 +70,7 @@ class Network:
         return cls(chains, pieces)
 
     def polygons(self, lines: list[FloatArray]) -> list[FloatArray]:
-        """Corners of each piece, whose chains have the corners given."""
+        """Return the corners of each piece, (n, 2), from the corners of each chain."""
         return [
             np.concatenate(
                 [lines[number][:-1] if ahead else lines[number][:0:-1] for number, ahead in around]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Maps of orientations as Channel Text Files, ``.ctf``, on square and hexagonal grids."""
+"""Read maps of orientations from Channel Text Files, ``.ctf``, on square and hexagonal grids."""
 
 from __future__ import annotations
 
@@ -18,10 +18,16 @@ _MOST_PHASES = 100
 
 
 def read(path: Path) -> OrientationMap:
-    """Read a map; its frame of a crystal has x along a*, y along b.
+    """Read a map, in a crystal frame with x along a* and y along b.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The map.
 
     Raises:
-        InputError: for a file that is none, or broken: with its line.
+        InputError: for a file that is not a ``.ctf`` file, or a broken line, with its number.
     """
     text = MapText(path)
     lines = text.lines
@@ -79,7 +85,7 @@ def read(path: Path) -> OrientationMap:
 
 
 def _phase(text: MapText, line: int) -> Phase:
-    """A phase: lattice, angles, name, number of its Laue group, separated by tabulators."""
+    """Return the phase of a line: lattice, angles, name and Laue group index, separated by tabs."""
     cells = text.lines[line].split("\t") if line < len(text.lines) else []
     if len(cells) < 4 or not cells[2].strip():
         raise text.refused("phase: must be lattice, angles, name and Laue group; complete it", line)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Grains of maps of crystal orientations (EBSD): what hangs together at small misorientations."""
+"""Grains of maps of crystal orientations (EBSD): points connected by small misorientations."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ class OrientedGrains:
     """Grains of a map as labels.
 
     Attributes:
-        labels: Label of each pixel, the first row on top.
+        labels: Label of each pixel, (rows, columns), the first row at the top.
         minerals: Index of each label's mineral in `names`; None for a hole.
         names: Minerals in the order of the file's phases.
-        counts: Points, those not indexed, and those of them that were filled; ``steps``, ``grid``
-            and ``cells`` where they differ from the file's head.
+        counts: Numbers of points, of unindexed points, and of unindexed points that were filled;
+            also ``steps``, ``grid`` and ``cells`` if they differ from the head of the file.
     """
 
     labels: IntArray
@@ -47,10 +47,16 @@ class OrientedGrains:
 
 
 def read(path: Path) -> OrientationMap:
-    """Read a map by the end of its name.
+    """Read a map in the format of the file's extension.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The map.
 
     Raises:
-        InputError: for another end, and as the readers.
+        InputError: for an unknown extension, and as the reader of the format.
     """
     suffix = path.suffix.lower()
     if suffix not in _READERS:
@@ -61,10 +67,17 @@ def read(path: Path) -> OrientationMap:
 
 
 def read_phases(path: Path, found: OrientationMap) -> dict[str, str]:
-    """Mineral, or ``hole``, of each phase, from a TOML file of ``"phase" = "mineral"``.
+    """Read the mineral, or ``hole``, of each phase from a TOML file of ``"phase" = "mineral"``.
+
+    Args:
+        path: The TOML file.
+        found: The map.
+
+    Returns:
+        Mineral by phase.
 
     Raises:
-        InputError: for a key that is no phase, and a phase that no key names.
+        InputError: for a key that is not a phase, or a phase without a key.
     """
     known = [phase.name for phase in found.phases]
     given: dict[str, str] = {}
@@ -84,20 +97,24 @@ def grains(
     unindexed: str = UNINDEXED[0],
     phases: Mapping[str, str] | None = None,
 ) -> OrientedGrains:
-    """Labels of grains.
+    """Return the grains of a map as labels.
 
-    Neighbours of one phase are of one grain below a misorientation.
+    Two neighbours of the same phase belong to one grain if their misorientation is below a
+    threshold.
 
     Args:
         found: The map.
-        misorientation: The smallest one, over all that the phase's symmetry makes alike, that
-            parts two grains [degree].
-        unindexed: ``fill``: points without a phase take that of most of their neighbours, from
-            the rim inwards; ``hole``: they are no rock.
-        phases: Mineral of each phase, or ``hole``; None: each is one of its own name.
+        misorientation: Smallest misorientation between two grains [degree]: the minimum over all
+            rotations that are equivalent by the symmetry of the phase.
+        unindexed: Treatment of points without a phase. ``fill``: they take the grain of most of
+            their neighbours, from the rim inwards. ``hole``: they are not rock.
+        phases: Mineral of each phase, or ``hole``; None: each phase is a mineral with its own name.
+
+    Returns:
+        Labels, minerals and counts.
 
     Raises:
-        InputError: for a value out of range, and a map without any phase.
+        InputError: for a value out of range, or a map without any phase.
     """
     bounds = Bounds(above=0.0, at_most=180.0)
     require_number(f"{_WHERE}: misorientation", misorientation, bounds, "degree")
@@ -128,7 +145,7 @@ def grains(
 
 
 def _neighbours(raster: IntArray) -> IntArray:
-    """Pairs of points whose pixels share a side, (n, 2)."""
+    """Return the pairs of points whose pixels share a side, (n, 2)."""
     sides = [(raster[:, :-1], raster[:, 1:]), (raster[:-1], raster[1:])]
     pairs = np.concatenate([np.stack((a.ravel(), b.ravel()), axis=1) for a, b in sides])
     low, high = np.sort(pairs[pairs[:, 0] != pairs[:, 1]], axis=1).T
@@ -138,7 +155,7 @@ def _neighbours(raster: IntArray) -> IntArray:
 
 
 def _components(found: OrientationMap, pairs: IntArray, most: float) -> IntArray:
-    """Number of the grain of each point; -1 where it is not indexed."""
+    """Return the grain index of each point, (n,); -1 for points that are not indexed."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
@@ -159,10 +176,11 @@ def _components(found: OrientationMap, pairs: IntArray, most: float) -> IntArray
 
 
 def _fill(labels: IntArray, pairs: IntArray) -> IntArray:
-    """Give each point without a label that of most of its neighbours.
+    """Give each point without a label the label of most of its neighbours.
 
     Returns:
-        For each point itself, or the indexed point of its new grain that it is now like.
+        For each point, the index of the point whose label it has: its own index, or an indexed
+        point of its new grain.
     """
     ways = np.concatenate((pairs, pairs[:, ::-1]))
     source: IntArray = np.arange(len(labels))

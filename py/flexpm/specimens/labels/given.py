@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Grains from an array of labels: what is asked for, checked, and the cells that come of it."""
+"""Grains from an array of labels: checks of the arguments, and division of the image into cells."""
 
 from __future__ import annotations
 
@@ -36,18 +36,18 @@ FILLS = (0.6, 0.75, 0.9)
 
 @dataclass(frozen=True)
 class Division:
-    """Pieces of grains that an image is divided into.
+    """Pieces of grains into which an image is divided.
 
     Attributes:
-        polygons: Corners of each piece, counter-clockwise, (n, 2) [m]; the first of each grain
-            first, in the order of the grains.
+        polygons: Corners of each piece, counter-clockwise, (n, 2) [m]. The first piece of each
+            grain comes first, in the order of the grains.
         grains: Grain of each piece.
         labels: Label of each grain.
         pixels: Number of pixels of each grain.
-        minerals: Index of each grain's mineral; None if none were named.
+        minerals: Index of each grain's mineral; None without minerals.
         edge: Spacing of corners [m].
-        has_holes: Whether pixels are of no grain.
-        counts: How many regions and pixels went another way, by what happened.
+        has_holes: Whether some pixels belong to no grain.
+        counts: Numbers of regions and pixels that were reassigned, by reason.
         source: Figures of the regions of the image itself, see ``measures.of_image``.
     """
 
@@ -75,13 +75,19 @@ def divide(
     """Divide an image of labels into pieces of grains, see `Specimen.from_labels`.
 
     Args:
-        labels: As there.
-        pixel: As there, or width and height [m].
-        minerals: As there.
-        edge: As there [m].
-        smallest: As there.
-        smoothed: Whether boundaries are smoothed; else they keep to the edges of pixels.
-        least_fill: Least part of its convex hull that a piece fills [-].
+        labels: As for `Specimen.from_labels`.
+        pixel: As for `Specimen.from_labels`, or width and height of a pixel [m].
+        minerals: As for `Specimen.from_labels`.
+        edge: As for `Specimen.from_labels` [m].
+        smallest: As for `Specimen.from_labels`.
+        smoothed: Smooth the boundaries. False: they follow the edges of pixels.
+        least_fill: Smallest ratio of a piece's area to the area of its convex hull [-].
+
+    Returns:
+        The pieces.
+
+    Raises:
+        InputError: as `Specimen.from_labels`.
     """
     image: IntArray = np.ascontiguousarray(whole_labels(labels)[::-1])  # the lowest row first
     sides = pixel if isinstance(pixel, tuple) else (pixel, pixel)
@@ -122,10 +128,10 @@ def divide(
 
 
 def whole_labels(labels: npt.ArrayLike) -> IntArray:
-    """Labels as whole numbers.
+    """Return labels as an array of integers, (rows, columns).
 
     Raises:
-        InputError: for what is no picture of whole numbers, or is too large.
+        InputError: for an array that is not an image of integers, or that is too large.
     """
     given = np.asarray(labels)
     if given.ndim == 3:
@@ -160,7 +166,7 @@ def whole_labels(labels: npt.ArrayLike) -> IntArray:
 
 
 def _minerals(minerals: object, image: IntArray) -> dict[int, int | None]:
-    """Mineral of each label; None for holes."""
+    """Return the mineral index of each label; None for holes."""
     if not isinstance(minerals, Mapping):
         raise InputError(
             f"{_WHERE}: minerals = {minerals!r}, must be indices by label, or None; give "

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Symmetry of crystals: rotations of the Laue groups, and misorientations. Quaternions x, y, z, w.
+"""Crystal symmetry: rotations of the Laue groups, and misorientations. Quaternions x, y, z, w.
 
-The axis c is along z; -1, 2/m and so on are the names of the groups.
+The axis c is along z. The groups have names such as -1 and 2/m.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ NAMES = tuple(_GROUPS)
 
 
 def rotations(name: str, axis: str = "y") -> FloatArray:
-    """Rotations of a group, (n, 4).
+    """Return the rotations of a Laue group as quaternions, (n, 4).
 
     Args:
         name: One of ``NAMES``.
-        axis: Along which a twofold axis of 2/m lies: x, y or z; and of -3m: x or y.
+        axis: Direction of a twofold axis: x, y or z for 2/m; x or y for -3m.
     """
     from scipy.spatial.transform import Rotation
 
@@ -40,7 +40,12 @@ def rotations(name: str, axis: str = "y") -> FloatArray:
 
 
 def orientations(angles: FloatArray, *, degrees: bool) -> FloatArray:
-    """Orientations, (n, 4), of Bunge's Euler angles phi1, Phi, phi2, (n, 3)."""
+    """Return orientations as quaternions, (n, 4), from Bunge's Euler angles.
+
+    Args:
+        angles: phi1, Phi and phi2, (n, 3) [degree, or rad].
+        degrees: Whether the unit is degree.
+    """
     from scipy.spatial.transform import Rotation
 
     found: FloatArray = Rotation.from_euler("ZXZ", angles, degrees=degrees).as_quat()
@@ -48,15 +53,14 @@ def orientations(angles: FloatArray, *, degrees: bool) -> FloatArray:
 
 
 def misorientations(one: FloatArray, other: FloatArray, group: FloatArray) -> FloatArray:
-    """Smallest angles between orientations of one phase, over all that its symmetry makes alike.
+    """Return the smallest angles between orientations of one phase, (n,) [degree].
+
+    The minimum is over all rotations that are equivalent by the symmetry of the phase.
 
     Args:
         one: Orientations, (n, 4).
         other: Orientations, (n, 4).
         group: Rotations of the phase's group, (k, 4).
-
-    Returns:
-        Angles [degree].
     """
     (a, d), (b, e) = ((q[:, :3], q[:, 3:]) for q in (one, other))
     between = np.hstack((d * b - e * a - np.cross(a, b), np.sum(one * other, axis=1)[:, None]))

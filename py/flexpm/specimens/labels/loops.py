@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lines of an image of regions: loops around them, and cuts of regions that go round others.
+"""Lines of an image of regions: loops around them, and cuts of regions that enclose others.
 
-A line goes along edges of pixels from vertex to vertex, the region at its left. Vertices are
-numbered row by row, row 0 is the lowest one. Where a region touches itself at a corner its line
-turns right: pixels of it that touch so stay together, and what they part is parted.
+A line follows the edges of pixels from vertex to vertex, with the region at its left. Vertices are
+numbered row by row; row 0 is the lowest row. Where a region touches itself at a corner, its line
+bends to the right: pixels of the region that touch at this corner stay connected, and the pixels
+that they separate stay separated.
 """
 
 from __future__ import annotations
@@ -32,17 +33,17 @@ class Corners:
 
     @classmethod
     def of(cls, image: IntArray) -> Corners:
-        """Those of an image; outside of it there are holes."""
+        """Return the corners of an image; outside of the image there are holes."""
         padded = np.pad(image, 1, constant_values=HOLE)
         return cls(padded[1:, 1:], padded[1:, :-1], padded[:-1, :-1], padded[:-1, 1:])
 
     def sides(self) -> tuple[list[IntArray], list[IntArray]]:
-        """Regions left and right of the edge that leaves each vertex in each direction."""
+        """Return the regions left and right of each vertex's outgoing edge in each direction."""
         around = [self.right_up, self.left_up, self.left_down, self.right_down]
         return around, [around[-1], *around[:-1]]
 
     def degree(self) -> IntArray:
-        """Number of lines that meet at each vertex."""
+        """Return the number of lines that meet at each vertex."""
         left, right = self.sides()
         met: IntArray = sum(
             ((one != other).astype(np.int8) for one, other in zip(left, right, strict=True)),
@@ -52,7 +53,7 @@ class Corners:
 
 
 def loops_of(image: IntArray) -> list[tuple[int, IntArray]]:
-    """Region and vertices of each loop, in the order of regions; outer loops turn left."""
+    """Return region and vertices of each loop, by region; outer loops are counter-clockwise."""
     left, right = (np.stack(side).reshape(4, -1) for side in Corners.of(image).sides())
     width = image.shape[1] + 1
     direction, start = np.nonzero((left != right) & (left >= 0))
@@ -80,19 +81,20 @@ def loops_of(image: IntArray) -> list[tuple[int, IntArray]]:
 
 
 def divided(found: Regions, least_fill: float) -> tuple[IntArray, IntArray]:
-    """Cut regions that go round others, or are far from convex, into pieces.
+    """Cut regions that enclose others, or are far from convex, into pieces.
 
-    Level cuts go left from the point of what is inside that is furthest left, and right from the
-    one furthest right, as far as the region goes. A piece that is far from convex is cut across the
-    middle of its longer side, along x or y, and so are its parts.
+    A horizontal cut goes left from the leftmost point of the enclosed region, and another cut right
+    from its rightmost point, both to the end of the enclosing region. A piece that is far from
+    convex is cut across the middle of its longer side, along x or y; its parts are cut in the same
+    way.
 
     Args:
         found: The regions.
-        least_fill: Least part of its convex hull that a piece fills [-]; half a ring has about 0.6.
+        least_fill: Smallest ratio of a piece's area to the area of its convex hull [-]; half a ring
+            has about 0.6.
 
     Returns:
-        Number of the piece of each pixel, the first piece of each grain first, and the grain of
-        each piece.
+        Piece index of each pixel, the first piece of each grain first, and the grain of each piece.
     """
     image = found.image
     cuts = Cuts.none(image)
@@ -113,13 +115,13 @@ def divided(found: Regions, least_fill: float) -> tuple[IntArray, IntArray]:
 
 
 def _places(loop: IntArray, image: IntArray) -> IntArray:
-    """Columns and rows of vertices."""
+    """Return the columns and rows of vertices."""
     y, x = np.divmod(loop, image.shape[1] + 1)
     return np.stack((x, y))
 
 
 def _halve(cuts: Cuts, parts: IntArray, image: IntArray, least_fill: float) -> bool:
-    """Cut all parts that are far from convex; returns whether there were any."""
+    """Cut all parts that are far from convex; return whether any part was cut."""
     found = False
     for part, loop in loops_of(np.where(image >= 0, parts, HOLE)):
         places = _places(loop, image)
@@ -137,7 +139,7 @@ def _halve(cuts: Cuts, parts: IntArray, image: IntArray, least_fill: float) -> b
 
 
 def _fill(places: IntArray) -> float:
-    """Area within a loop over that of its convex hull [-]."""
+    """Return the ratio of the area within a loop to the area of its convex hull [-]."""
     from scipy.spatial import ConvexHull
 
     x, y = places
@@ -146,14 +148,14 @@ def _fill(places: IntArray) -> float:
 
 
 def _repeats(grains: IntArray) -> BoolArray:
-    """Whether the number of each grain was there before."""
+    """Return for each grain index whether it has occurred before."""
     again = np.ones(len(grains), dtype=bool)
     again[np.unique(grains, return_index=True)[1]] = False
     return again
 
 
 def _cut(cuts: BoolArray, image: IntArray, region: int, loop: IntArray) -> None:
-    """Cut a region left and right of a loop inside."""
+    """Cut a region left and right of an inner loop."""
     x, y = loop
     for side, to_left in ((int(x.min()), True), (int(x.max()), False)):
         beside = side - 1 if to_left else side

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures of grains, whose cells may be pieces of them, and of the image they come of. SI units."""
+"""Figures of grains, which may consist of several cells, and of the source image. SI units."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ if TYPE_CHECKING:  # an image is read before YADE is there
 def of_grains(
     cells: Tessellation, grains: IntArray, minerals: IntArray | None, names: Sequence[str]
 ) -> Table:
-    """Sizes, shapes and neighbours of grains, and lengths of boundary by pair of minerals.
+    """Return sizes, shapes and neighbours of grains, and boundary lengths by pair of minerals.
 
     Args:
         cells: The cells.
         grains: Grain of each cell.
-        minerals: Index of each cell's mineral; None: all alike.
+        minerals: Index of each cell's mineral; None: a single mineral.
         names: Names of the minerals.
 
     Returns:
-        Quantiles of equal-area diameters and lengths [m], aspect ratios, shares [-].
+        Quantiles of equal-area diameters and lengths [m], aspect ratios [-] and shares [-].
     """
     areas = np.bincount(grains, cells.cell_areas)
     pairs = cells.shared_edges[:, :2]
@@ -61,19 +61,19 @@ def of_grains(
 def of_image(
     image: IntArray, holes: BoolArray, kinds: Mapping[int, int | None] | None, sides: FloatArray
 ) -> Table:
-    """The same figures of the regions of an image, before any of them is merged or smoothed.
+    """Return the figures of the regions of an image, before regions are merged or smoothed.
 
-    A staircase is longer than the line that it follows, by 4 / pi in the mean of all directions,
-    for which lengths of boundary are divided.
+    A staircase is longer than the line that it follows, by a factor 4 / pi in the mean over all
+    directions. Boundary lengths are divided by this factor.
 
     Args:
         image: Label of each pixel.
-        holes: Whether a pixel is of no grain.
-        kinds: Index of each label's mineral; None: all alike.
+        holes: Whether a pixel belongs to no grain.
+        kinds: Index of each label's mineral; None: a single mineral.
         sides: Width and height of a pixel [m].
 
     Returns:
-        As of the grains; minerals by their index, pairs of them by two.
+        As `of_grains`; a mineral has its index as key, a pair of minerals both indices.
     """
     regions = np.where(holes, -1, connected(np.where(holes, image.min() - 1, image)))
     kept, first, whole = np.unique(regions, return_index=True, return_inverse=True)
@@ -114,7 +114,7 @@ def of_image(
 
 
 def _sides(number: IntArray, sides: FloatArray) -> tuple[IntArray, FloatArray]:
-    """Regions on both sides of each side of a pixel between two of them, and its length [m]."""
+    """Return the two regions at each pixel side between regions, and its length [m]."""
     found, lengths = [], []
     for one, other, length in (
         (number[:, :-1], number[:, 1:], sides[1]),
@@ -127,7 +127,7 @@ def _sides(number: IntArray, sides: FloatArray) -> tuple[IntArray, FloatArray]:
 
 
 def named(found: Table, names: Sequence[str]) -> Table:
-    """Figures of an image with the names of minerals in place of their indices."""
+    """Return the figures of an image with the names of minerals instead of their indices."""
     if "area_share" not in found:
         return found
     if not names:
@@ -152,7 +152,7 @@ def _spread(values: FloatArray) -> dict[str, float]:
 
 
 def _aspects(cells: Tessellation, grains: IntArray, count: int) -> FloatArray:
-    """Ratio of the axes of the ellipse with the second moments of each grain's area."""
+    """Return each grain's axis ratio [-]: ellipse with the second moments of its area."""
     moments, area, first = np.zeros((count, 2, 2)), np.zeros(count), np.zeros((count, 2))
     for cell, grain in enumerate(grains.tolist()):
         start, end = cells.cell_offsets[cell : cell + 2]
@@ -169,7 +169,7 @@ def _aspects(cells: Tessellation, grains: IntArray, count: int) -> FloatArray:
 
 
 def _axes(moments: FloatArray) -> FloatArray:
-    """Ratio of the axes of ellipses with central second moments, (n, 2, 2)."""
+    """Return the axis ratios of ellipses with central second moments, (n, 2, 2) [-]."""
     low, high = np.linalg.eigvalsh(moments).T
     ratios: FloatArray = np.sqrt(high / np.maximum(low, 1e-12 * high))
     return ratios

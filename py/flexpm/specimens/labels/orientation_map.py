@@ -113,7 +113,12 @@ class OrientationMap:
 
 
 def is_hexagonal(x: FloatArray, step: float) -> bool:
-    """Whether some rows of points begin half a step aside, x in micrometres, the step in metres."""
+    """Return whether some rows of points begin half a step aside.
+
+    Args:
+        x: Coordinates of points [um].
+        step: Step between columns [m].
+    """
     along = (x - x.min(initial=np.inf)) / (1e6 * step)
     return bool(np.any(np.abs(along % 1.0 - 0.5) < ON_GRID))
 
@@ -156,13 +161,13 @@ def _unlike(steps: tuple[float, float], hexagonal: bool, head: Head) -> dict[str
 
 
 class MapText:
-    """Text of a map: its lines, and a table of numbers from one of them on.
+    """Text of a map: its lines, and a table of numbers that begins at one of the lines.
 
     Args:
         path: The file, at most 64 MB.
 
     Raises:
-        InputError: if it cannot be read.
+        InputError: for a file that cannot be read.
     """
 
     def __init__(self, path: Path) -> None:
@@ -179,7 +184,7 @@ class MapText:
             ) from None
 
     def refused(self, why: str, line: int | None = None) -> InputError:
-        """The error of a line, counted from 0."""
+        """Return the error of a line; lines are counted from 0."""
         place = "" if line is None else f", line {line + 1}"
         return InputError(f"{self._name}{place}: {why}")
 
@@ -194,7 +199,7 @@ class MapText:
         return value
 
     def count(self, what: str, text: str, line: int) -> int:
-        """A number of columns, rows or layers; 0 where the head leaves it open."""
+        """Return a number of columns, rows or layers; 0 if the head does not state it."""
         value = self.number(what, text, line)
         if not 0 <= value <= MOST_PIXELS or value != int(value):
             raise self.refused(
@@ -204,14 +209,14 @@ class MapText:
         return int(value)
 
     def step(self, what: str, text: str, line: int) -> float:
-        """A step of the grid in micrometres, as metres."""
+        """Return a step of the grid, read in micrometres, in metres."""
         value = self.number(what, text, line)
         if not 1e-3 <= value <= 1e6:
             raise self.refused(f"{what} = {text} um, must be 0.001 to 1e6; correct it", line)
         return 1e-6 * value
 
     def table(self, first: int, columns: Sequence[int]) -> FloatArray:
-        """Columns of numbers from a line on, (rows, columns)."""
+        """Return columns of numbers from a line on, (rows, columns)."""
         least, rows = max(columns) + 1, []
         for line, text in enumerate(self.lines[first:], first):
             if not text.strip():
@@ -235,13 +240,13 @@ class MapText:
     def _places(
         self, x: FloatArray, y: FloatArray, steps: tuple[float, float], shift: FloatArray
     ) -> tuple[IntArray, IntArray]:
-        """Columns and rows of points.
+        """Return the columns and rows of points.
 
         Args:
-            x: To the right [um].
-            y: Downwards [um].
-            steps: Between columns and between rows [m].
-            shift: What a row begins with, of a step, for even and odd rows [-].
+            x: Coordinate to the right [um].
+            y: Coordinate downwards [um].
+            steps: Steps between columns and between rows [m].
+            shift: Offset of the first point of even and odd rows, as a fraction of a step [-].
         """
         if len(x) < 4:
             raise self.refused(f"points = {len(x)}, must be >= 4; give a whole map")
@@ -337,11 +342,11 @@ class MapText:
     def _raster(
         self, x: FloatArray, y: FloatArray, steps: tuple[float, float], hexagonal: bool
     ) -> Grid:
-        """Where points lie.
+        """Return the grid with the point of each pixel.
 
-        A point of a hexagonal grid has two pixels beside each other, so that each second row lies
-        half a step aside, and has its six neighbours. What is left at both ends goes to the last
-        point.
+        A point of a hexagonal grid has two neighbouring pixels, so that each second row begins half
+        a step aside and each point has its six neighbours. Remaining pixels at both ends of a row
+        belong to the last point of the row.
         """
         shift = np.zeros(2)
         if hexagonal:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Images of labels, read from files, and the phases that their labels stand for."""
+"""Images of labels, read from files, and the phases of their labels."""
 
 from __future__ import annotations
 
@@ -41,25 +41,31 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 @dataclass(frozen=True)
 class Picture:
-    """Labels of pixels, the first row on top."""
+    """Labels of pixels, the first row at the top."""
 
     labels: IntArray
     has_colours: bool = False  #: whether a label is a colour, red * 65536 + green * 256 + blue
     has_voids: bool = False  #: whether 0 stands for no rock
 
     def name_of(self, label: int) -> str:
-        """A label as a file of phases has it."""
+        """Return a label in the notation of a phase file."""
         return f"#{label:06x}" if self.has_colours else str(label)
 
 
 def read(path: Path) -> Picture:
-    """Read labels from PNG, TIFF, NPY or TESR.
+    """Read labels from a PNG, TIFF, NPY or TESR file.
 
-    A palette is read as its indices; a channel of opacity must be full.
+    A palette image is read as its indices; an opacity channel must be fully opaque.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The labels.
 
     Raises:
-        InputError: for a file that cannot be read, has several pages, more pixels than are taken,
-            or values that are no whole numbers.
+        InputError: for a file that cannot be read, has several pages, more pixels than the limit,
+            or values that are not integers.
     """
     if path.suffix.lower() == ".npy":
         return _from_array(path)
@@ -90,7 +96,7 @@ def read(path: Path) -> Picture:
 
 @contextlib.contextmanager
 def _complaints() -> Iterator[list[str]]:
-    """Collect the lines that libraries in C write to standard error, of a broken TIFF."""
+    """Collect the lines that C libraries write to standard error for a broken TIFF file."""
     lines: list[str] = []
     kept, taken = os.dup(2), os.memfd_create("complaints")
     try:
@@ -107,10 +113,10 @@ def _complaints() -> Iterator[list[str]]:
 
 
 def _from_open(image: ImageFile) -> Picture:
-    """An image of which only the head has been read.
+    """Return the labels of an image of which only the head has been read.
 
     Raises:
-        InputError: for several pages, and more pixels than are taken.
+        InputError: for several pages, or more pixels than the limit.
     """
     if image.width * image.height > MOST_PIXELS:
         raise InputError(
@@ -128,7 +134,7 @@ def _short(error: Exception) -> str:
 
 
 def _from_array(path: Path) -> Picture:
-    """An array, of which only the head is read before its size is known."""
+    """Return the labels of an array; its size is checked from its head before the data are read."""
     try:
         with path.open("rb") as file:
             magic, version, length = struct.unpack("<6sHI", file.read(12).ljust(12, b"\0"))
@@ -176,14 +182,17 @@ def _from_image(mode: str, values: IntArray) -> Picture:
 
 
 def read_phases(path: Path, picture: Picture) -> dict[int, str]:
-    """Name of the mineral, or ``hole``, of each label.
+    """Read the name of the mineral, or ``hole``, of each label.
 
     Args:
         path: A TOML file: labels, or colours ``#rrggbb``, and the phase of each.
         picture: The labels.
 
+    Returns:
+        Mineral by label.
+
     Raises:
-        InputError: for a key that is no label, and a label that no key names.
+        InputError: for a key that is not a label, or a label without a key.
     """
     content: Table = load_toml(path, "phases")
     found: dict[int, str] = {}
@@ -205,7 +214,7 @@ def _label(key: str, picture: Picture) -> int:
 
 
 def _require_all(found: Mapping[int, str], picture: Picture, path: Path) -> None:
-    """Refuse labels without a phase, by the first of them and their number."""
+    """Raise InputError for labels without a phase, with their number and the first label."""
     labels = picture.labels
     values, first, counts = np.unique(labels, return_index=True, return_counts=True)
     missing = [row for row, value in enumerate(values.tolist()) if value not in found]
@@ -221,7 +230,7 @@ def _require_all(found: Mapping[int, str], picture: Picture, path: Path) -> None
 
 
 def indices(phases: Mapping[int, str]) -> tuple[list[str], dict[int, int | None]]:
-    """Names of the minerals in the order of the file, and the index of each label's."""
+    """Return the minerals in the order of the file, and the mineral index of each label."""
     names = [name for name in dict.fromkeys(phases.values()) if name != HOLE_NAME]
     return names, {
         label: None if name == HOLE_NAME else names.index(name) for label, name in phases.items()

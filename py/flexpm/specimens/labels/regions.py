@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Regions of an image of labels: what hangs together by edges of pixels. Lengths in pixels.
+"""Regions of an image of labels, connected by edges of pixels. Lengths in pixels.
 
-Rows go upwards here: row 0 is the lowest one. A hole has the number -1.
+Rows are counted upwards: row 0 is the lowest row. A hole has the index -1.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ class Regions:
     """Grains of an image.
 
     Attributes:
-        image: Number of the grain of each pixel, `HOLE` where there is none.
+        image: Grain index of each pixel; `HOLE` for a pixel without a grain.
         labels: Label of each grain.
-        counts: How many regions and pixels went another way, by what happened.
+        counts: Numbers of regions and pixels that were reassigned, by reason.
     """
 
     image: IntArray
@@ -43,14 +43,14 @@ class Regions:
 
 @dataclass(frozen=True)
 class Cuts:
-    """Where pixels of one value do not hang together."""
+    """Edges across which pixels of equal value are not connected."""
 
     beside: BoolArray  #: with the one to the right, (rows, columns - 1)
     above: BoolArray  #: with the one above, (rows - 1, columns)
 
     @classmethod
     def none(cls, image: IntArray) -> Cuts:
-        """No cut."""
+        """Return no cuts."""
         rows, columns = image.shape
         return cls(
             np.zeros((rows, columns - 1), dtype=bool), np.zeros((rows - 1, columns), dtype=bool)
@@ -58,11 +58,11 @@ class Cuts:
 
 
 def connected(image: IntArray, cuts: Cuts | None = None) -> IntArray:
-    """Number of the connected region of equal values that each pixel is in, in reading order.
+    """Return the index of the connected region of equal values of each pixel, in reading order.
 
     Args:
         image: Values of the pixels.
-        cuts: Where pixels do not hang together though they are equal.
+        cuts: Edges across which pixels are not connected although they are equal.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -84,16 +84,17 @@ def connected(image: IntArray, cuts: Cuts | None = None) -> IntArray:
 def find(
     labels: IntArray, holes: BoolArray, smallest: int, phases: Mapping[int, int] | None = None
 ) -> Regions:
-    """Grains of an image of labels.
+    """Return the grains of an image of labels.
 
     Args:
         labels: Label of each pixel.
-        holes: Whether a pixel is of a hole.
-        smallest: Regions with fewer pixels go to a neighbour.
-        phases: Phase of each label; None: each label is one of its own.
+        holes: Whether a pixel belongs to a hole.
+        smallest: Smallest number of pixels of a region; smaller regions are merged with a
+            neighbour.
+        phases: Phase of each label; None: each label is a separate phase.
 
     Raises:
-        InputError: if all is hole, or one region is left.
+        InputError: if all pixels are holes, or only one region remains.
     """
     marked = np.where(holes, labels.min() - 1, labels)
     regions = connected(marked)
@@ -125,7 +126,7 @@ def find(
 
 
 class _Merging:
-    """Regions that go to their neighbours, smallest first."""
+    """Merging of regions with their neighbours, smallest regions first."""
 
     def __init__(self, regions: IntArray, is_hole: BoolArray, kinds: IntArray) -> None:
         self.target = np.arange(len(is_hole))  #: region that each one has gone to, once settled
@@ -148,12 +149,12 @@ class _Merging:
 
     @property
     def grains(self) -> int:
-        """Regions that are left and are no holes."""
+        """Number of remaining regions that are not holes."""
         there = self.target == np.arange(len(self.target))
         return int(np.count_nonzero(there & ~np.array(self._is_hole)))
 
     def merge(self, smallest: int, *, holes: bool) -> int:
-        """Let holes, or the others, with fewer pixels go; returns how many went."""
+        """Merge holes, or other regions, with fewer pixels than `smallest`; return their number."""
         queue = [
             (size, region)
             for region, size in enumerate(self._sizes)
@@ -176,7 +177,7 @@ class _Merging:
         return gone
 
     def _rank(self, region: int, other: int) -> tuple[bool, bool, int, int]:
-        """Grains before holes, the same phase, the longest line, the first one."""
+        """Rank a neighbour: grains before holes, then same phase, longest line, first index."""
         alike = self._kinds[region] == self._kinds[other]
         return (not self._is_hole[other], alike, self._lines[region][other], -other)
 
@@ -196,7 +197,7 @@ class _Merging:
 
 
 def _drop_loose(image: IntArray) -> int:
-    """Make holes of all grains that do not hang together with most of the rock."""
+    """Replace grains that are not connected with the largest part of the rock by holes."""
     parts = connected((image >= 0).astype(np.int8))
     sizes = np.bincount(parts[image >= 0])
     loose = (image >= 0) & (parts != int(np.argmax(sizes)))
@@ -205,7 +206,7 @@ def _drop_loose(image: IntArray) -> int:
 
 
 def _fill_touching(image: IntArray) -> int:
-    """Give a pixel to a grain wherever holes touch at a corner; returns how many."""
+    """Give a pixel to a grain wherever holes touch at a corner; return the number of pixels."""
     filled = 0
     while True:
         low_left, low_right = image[:-1, :-1] < 0, image[:-1, 1:] < 0

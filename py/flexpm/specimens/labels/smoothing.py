@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Smooth lines for the staircases of chains. Lengths in pixels.
 
-The two pieces of a chain share its one line, so none is lost and none overlaps. Its corners stand
-an even way apart on the smoothed staircase and are pushed aside together until the line leaves the
-areas of both sides as they were. Where it would be more than a pixel off or meet another one, it
-gets more corners, at last those of the staircase; where it would leave a junction along another
-one, a piece of the staircase is kept there.
+The two pieces of a chain share its line, so that there are no gaps and no overlaps. The corners of
+the line are evenly spaced along the smoothed staircase. They are shifted sideways together until
+the line preserves the areas on both sides. A line gets more corners where it would be more than a
+pixel from its staircase or meet another line; in the last step these are the corners of the
+staircase. Where a line would leave a junction along another line, a piece of its staircase is kept.
 """
 
 from __future__ import annotations
@@ -36,23 +36,23 @@ _MORE = 1.5
 
 @dataclass
 class _Plan:
-    """How the line of a chain is made."""
+    """Parameters of the line of a chain."""
 
     count: int  #: edges of what is smoothed
     kept: list[int]  #: steps of the staircase kept at the begin and at the end
 
     def is_last(self, chain: Chain) -> bool:
-        """Whether the line is the staircase."""
+        """Whether the line is the staircase itself."""
         steps = len(chain.raster) - 1
         return sum(self.kept) + 2 >= steps or 2 * self.count >= steps - sum(self.kept)
 
 
 def smooth(network: Network, edge: float) -> list[FloatArray]:
-    """Corners of the line of each chain, (n, 2).
+    """Return the corners of the line of each chain, (n, 2) each.
 
     Args:
         network: The chains.
-        edge: Way from corner to corner.
+        edge: Spacing of the corners.
     """
     plans = [_Plan(_first_count(chain, edge), [0, 0]) for chain in network.chains]
     lines = [_line(chain, plan) for chain, plan in zip(network.chains, plans, strict=True)]
@@ -73,7 +73,7 @@ def smooth(network: Network, edge: float) -> list[FloatArray]:
 
 
 def _first_count(chain: Chain, edge: float) -> int:
-    """Number of edges of a line."""
+    """Return the number of edges with which a line begins."""
     if chain.is_straight:
         return 1 if chain.is_outer else max(1, round((len(chain.raster) - 1) / edge))
     length = float(_way(_filtered(chain.raster, _PASSES[0]))[-1])
@@ -81,7 +81,7 @@ def _first_count(chain: Chain, edge: float) -> int:
 
 
 def _line(chain: Chain, plan: _Plan) -> FloatArray:
-    """The line with the fewest edges, not less than planned, that is nowhere too far off."""
+    """Return the line with the fewest edges, at least as planned, that is nowhere too far off."""
     raster = chain.raster
     if chain.is_straight:
         steps = np.linspace(0.0, 1.0, plan.count + 1)[:, None]
@@ -111,12 +111,13 @@ def _smoothed(raster: FloatArray, count: int) -> FloatArray:
 
 
 def _fitted(flat: FloatArray, raster: FloatArray, count: int) -> FloatArray | None:
-    """A line of the area of a staircase that is nowhere too far off; None if none was found.
+    """Return a line with the area of the staircase that is nowhere too far off, or None.
 
     Args:
         flat: The smoothed staircase.
         raster: The staircase.
-        count: Edges of the line, which has more where it would be too far off.
+        count: Smallest number of edges of the line; it has more edges where it would be too far
+            off.
     """
     way = _way(flat)
     nodes = np.linspace(0.0, way[-1], count + 1)
@@ -135,7 +136,7 @@ def _fitted(flat: FloatArray, raster: FloatArray, count: int) -> FloatArray | No
 
 
 def _filtered(raster: FloatArray, passes: int) -> FloatArray:
-    """A staircase without its steps, no vertex of which has moved by more than `_MOVED`."""
+    """Return a staircase without its steps; no vertex moves by more than `_MOVED`."""
     flat = raster.copy()
     for _ in range(min(passes, len(raster) // 2)):
         flat[1:-1] = 0.25 * flat[:-2] + 0.5 * flat[1:-1] + 0.25 * flat[2:]
@@ -146,12 +147,12 @@ def _filtered(raster: FloatArray, passes: int) -> FloatArray:
 
 
 def _way(line: FloatArray) -> FloatArray:
-    """Way along a line to each of its points."""
+    """Return the path length along a line at each of its points."""
     return np.append(0.0, np.cumsum(np.hypot(*np.diff(line, axis=0).T)))
 
 
 def _at(line: FloatArray, way: FloatArray, nodes: FloatArray) -> FloatArray:
-    """Points of a line, its ends included."""
+    """Return the points of a line at path lengths, its ends included."""
     found = np.stack([np.interp(nodes, way, line[:, k]) for k in (0, 1)], axis=1)
     found[0], found[-1] = line[0], line[-1]
     return found
@@ -164,7 +165,7 @@ def _area(line: FloatArray) -> float:
 
 
 def _with_area(line: FloatArray, target: float) -> FloatArray | None:
-    """The line with its inner corners pushed aside until it has an area; None if none does."""
+    """Return the line with its inner corners shifted sideways to enclose an area, or None."""
     along = line[2:] - line[:-2]
     reach = np.hypot(*along.T)
     if reach.min() <= 0.0:
@@ -183,7 +184,7 @@ def _with_area(line: FloatArray, target: float) -> FloatArray | None:
 
 
 def _corners(raster: FloatArray) -> FloatArray:
-    """A staircase without the vertices on its straight parts."""
+    """Return a staircase without the vertices on its straight parts."""
     steps = np.diff(raster, axis=0)
     turns = np.any(steps[1:] != steps[:-1], axis=1)
     corners: FloatArray = raster[np.concatenate(([True], turns, [True]))]
@@ -191,7 +192,7 @@ def _corners(raster: FloatArray) -> FloatArray:
 
 
 def _away(points: FloatArray, line: FloatArray) -> FloatArray:
-    """Distance of points from a line."""
+    """Return the distances of points from a line."""
     starts, along = line[:-1], np.diff(line, axis=0)
     squares = np.maximum(np.sum(along**2, axis=1), 1e-300)
     to = points[:, None] - starts[None]
@@ -202,9 +203,9 @@ def _away(points: FloatArray, line: FloatArray) -> FloatArray:
 
 
 def _wrong(network: Network, lines: list[FloatArray]) -> list[tuple[int, int]]:
-    """Chains whose lines come too near to others, or leave a junction in another order.
+    """Return chains whose lines are too near to others, or leave a junction in the wrong order.
 
-    With each of them where: 0 at its begin, 1 at its end, 2 between.
+    The second number of each pair is the location: 0 the begin of the chain, 1 its end, 2 between.
     """
     found = _crowded(network, lines)
     segments, owner, ends = _segments(network, lines)
@@ -222,7 +223,7 @@ def _wrong(network: Network, lines: list[FloatArray]) -> list[tuple[int, int]]:
 
 
 def _segments(network: Network, lines: list[FloatArray]) -> tuple[FloatArray, IntArray, IntArray]:
-    """Ends of all segments (n, 2, 2), the chain of each, and numbers of their end points."""
+    """Return the ends of all segments (n, 2, 2), and the chain and end point indices of each."""
     segments, owner, ends = [], [], []
     inner = -1
     for number, (chain, line) in enumerate(zip(network.chains, lines, strict=True)):
@@ -236,7 +237,7 @@ def _segments(network: Network, lines: list[FloatArray]) -> tuple[FloatArray, In
 
 
 def _near(segments: FloatArray) -> tuple[IntArray, IntArray]:
-    """Pairs of segments that may be near each other."""
+    """Return the pairs of segments that may be near each other."""
     from scipy.spatial import cKDTree
 
     lengths = np.hypot(*(segments[:, 1] - segments[:, 0]).T)
@@ -253,7 +254,7 @@ def _near(segments: FloatArray) -> tuple[IntArray, IntArray]:
 
 
 def _distance(one: FloatArray, other: FloatArray) -> FloatArray:
-    """Distance of segments from segments, (n, 2, 2) each; 0 where they cross."""
+    """Return the distances between segments, (n, 2, 2) each; 0 where they intersect."""
     away = np.min(
         [
             _from(one[:, 0], other),
@@ -283,9 +284,9 @@ def _from(points: FloatArray, line: FloatArray) -> FloatArray:
 
 
 def _crowded(network: Network, lines: list[FloatArray]) -> list[tuple[int, int]]:
-    """Chains that leave a junction too near to others, or not in the order of their staircases.
+    """Return chains that leave a junction too near to others, or not in their staircases' order.
 
-    With each of them the end where it does: 0 its begin, 1 its end.
+    The second number of each pair is the end of the chain: 0 its begin, 1 its end.
     """
     leaving: dict[int, list[tuple[float, float, int, int]]] = {}
     for number, (chain, line) in enumerate(zip(network.chains, lines, strict=True)):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Raster tessellations of Neper, ``.tesr`` in the plane, as labels.
+"""Read raster tessellations of Neper, ``.tesr`` in 2D, as labels.
 
-The format is that of Neper's documentation, "Raster Tessellation File".
+Format: Neper's documentation, "Raster Tessellation File".
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ _BINARY = {
 
 
 def read(path: Path) -> IntArray:
-    """Read labels, the first row on top; 0 is void.
+    """Read labels, (rows, columns), the first row at the top; 0 is void.
 
     Raises:
-        InputError: for a file that cannot be read, has three dimensions, pixels that are not
-            square or orientations alone, and one that is broken: with its line.
+        InputError: for a file that cannot be read or has three dimensions, pixels that are not
+            square, or orientations only, and for a broken line, with its number.
     """
     words = Words(path, "tesr")
     words.expect("***tesr")
@@ -69,7 +69,7 @@ def read(path: Path) -> IntArray:
 
 
 def _cells(words: Words, kind: str, number: int, folder: Path) -> IntArray:
-    """Cell of each pixel."""
+    """Return the cell of each pixel."""
     if kind != "ascii" and kind not in _BINARY:
         raise words.refused(
             f"data format = {quoted(kind)}, must be ascii or one of {', '.join(_BINARY)}; convert "

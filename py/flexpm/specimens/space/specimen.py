@@ -283,20 +283,20 @@ class SolidSpecimen(PlaneOnly):
         return np.empty((0, 2, 2))
 
     def joint_lines(self) -> list[FloatArray]:
-        """None: a solid has no joints."""
+        """Return an empty list: a 3D specimen has no joints."""
         return []
 
     def joint_deviations(self) -> dict[str, float]:
-        """None: a solid has no joints."""
+        """Return an empty table: a 3D specimen has no joints."""
         return {}
 
     def network_intensities(self) -> Table:
-        """None: a solid has no joints."""
+        """Return an empty table: a 3D specimen has no fracture network."""
         return {}
 
     @property
     def told_cuts(self) -> dict[str, Cut]:
-        """None: a solid has no joints."""
+        """Empty: a 3D specimen has no joints."""
         return {}
 
     @property
