@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What each laboratory test is, as plain data: one file a test, in the folder tests."""
+"""Definitions of the laboratory tests as plain data: one file for each test, in folder tests."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a beam and half a disc on two supports have in common. Deviations D39 and D50."""
+"""Common parts of the tests of a beam and half a disc on two supports. Deviations D39, D50."""
 
 from __future__ import annotations
 
@@ -27,7 +27,16 @@ WORDS = Words(
 
 
 def span_of(asked: Asked, usual: float, size: float) -> float:
-    """Distance of the supports, above one mean grain and below a size of the specimen [m]."""
+    """Return the distance between the supports [m], above a mean grain diameter and below `size`.
+
+    Args:
+        asked: Options of the run.
+        usual: Default [m].
+        size: Size of the specimen [m].
+
+    Raises:
+        InputError: for a distance out of range.
+    """
     why = ""
     if asked.grain > 0.0:
         why = f"both supports are more than one mean grain of {asked.grain:g} m apart"
@@ -35,7 +44,7 @@ def span_of(asked: Asked, usual: float, size: float) -> float:
 
 
 def notch(frame: Frame) -> Lines:
-    """A line up from the middle of the bottom, unless the notch has no depth."""
+    """Return a vertical line from the middle of the bottom, or no line for a notch depth of 0."""
     depth = frame.number("notch")
     if not depth:
         return []
@@ -43,7 +52,11 @@ def notch(frame: Frame) -> Lines:
 
 
 def on_rollers(frame: Frame) -> Layout:
-    """Two rollers below, a head pressed on the middle."""
+    """Return the layout: two rollers at the bottom, and a driven head at the middle of the top.
+
+    Raises:
+        InputError: for a span that is not above a mean grain diameter.
+    """
     span, middle = frame.number("span"), frame.middle
     if not span > frame.grain:  # of grains that were given
         raise InputError(
@@ -72,7 +85,7 @@ def on_rollers(frame: Frame) -> Layout:
 def measured(
     frame: Frame, record: Columns, peak: float | None, toughness: Callable[[float], float | None]
 ) -> Mapping[str, float | None]:
-    """Load, work and, of a notch, `toughness` of the largest load."""
+    """Return peak load, fracture energy and, with a notch, the `toughness` of the peak load."""
     notch = frame.notch_depth
     found: dict[str, float | None] = {"notch_depth": notch}
     if peak is None:

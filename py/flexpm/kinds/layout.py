@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a specimen lies between parts, as plain data that a rig lays. SI units."""
+"""Layout of a specimen between parts, as plain data from which a rig adds the parts. SI units."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ BOTTOM, RIGHT, TOP, LEFT = range(4)
 
 @dataclass(frozen=True)
 class Frame:
-    """What a layout follows from: the box around a specimen, its sizes, what was asked for."""
+    """Input of a layout: box around the specimen, its sizes, and the options of the run."""
 
     left: float  #: [m]
     bottom: float
@@ -48,17 +48,17 @@ class Frame:
 
     @property
     def middle(self) -> float:
-        """Its place across [m]."""
+        """Coordinate of the middle of the box along x [m]."""
         return 0.5 * (self.left + self.right)
 
     @property
     def notch_depth(self) -> float:
-        """How far the notch has been cut from the bottom [m]; 0 without one. Deviation D35."""
+        """Depth of the notch as cut, from the bottom [m]; 0 without a notch. Deviation D35."""
         highest = float(self.notch[..., 1].max()) if len(self.notch) else self.bottom
         return max(highest, self.bottom) - self.bottom
 
     def number(self, name: str) -> float:
-        """Value of an option that is a number and is known by now."""
+        """Return the value of a numeric option that has been determined."""
         value = self.values[name]
         assert isinstance(value, float | int), name
         return float(value)
@@ -66,7 +66,7 @@ class Frame:
 
 @dataclass(frozen=True)
 class Plate:
-    """A plate against the outline: around a place, or along a whole side."""
+    """A plate on the outline: around a position, or along an entire side."""
 
     place: Place = (0.0, 0.0)  #: [m]
     normal: Place = (0.0, 0.0)  #: into the specimen
@@ -78,7 +78,7 @@ class Plate:
 
 @dataclass(frozen=True)
 class Opening:
-    """How far two points move apart, a column of the record."""
+    """Relative displacement of two points, a column of the record."""
 
     first: Place  #: [m]
     second: Place  #: [m]
@@ -87,7 +87,7 @@ class Opening:
 
 @dataclass(frozen=True)
 class Layout:
-    """Parts in the order in which they are laid, and what the record says of them."""
+    """Parts in the order in which they are added, and the columns of the record from them."""
 
     plates: Mapping[str, Plate]
     driven: tuple[str, ...]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Options of the command, of studies and of result.json, and their texts. SI units."""
+"""Options of the command, of studies and of result.json, and their help texts. SI units."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ PRESSURE = Bounds(above=0.0, at_most=1e15)
 
 @dataclass(frozen=True)
 class Option:
-    """One option of a run.
+    """Option of a run.
 
-    Several tests may have an option of the same name: it is one option of the command, whose help
-    has the default of each.
+    Several tests may share the name of an option: the command then has a single option, whose help
+    lists the default of each test.
     """
 
     name: str
@@ -38,12 +38,12 @@ class Option:
 
     @property
     def phrase(self) -> str:
-        """Help with the unit."""
+        """Help text with the unit."""
         return f"{self.help} [{self.unit}]" if self.unit else self.help
 
 
 def told_of(tests: Mapping[str, Option]) -> tuple[str, str]:
-    """Help with the unit, and default, of an option by the tests that have it."""
+    """Return the help text with the unit, and the default, of an option that `tests` share."""
     first = next(iter(tests.values()))
     what = _each({test: one.help for test, one in tests.items()})
     those = f", for {' and '.join(tests)}" if what == first.help else ""
@@ -56,7 +56,7 @@ def told_of(tests: Mapping[str, Option]) -> tuple[str, str]:
 
 
 def _each(texts: Mapping[str, str]) -> str:
-    """A text of several tests, once if all have the same one."""
+    """Return the texts of several tests as one text; only once if all texts are equal."""
     found: dict[str, list[str]] = {}
     for test, text in texts.items():
         found.setdefault(text, []).append(test)
@@ -67,7 +67,7 @@ def _each(texts: Mapping[str, str]) -> str:
 
 @dataclass(frozen=True)
 class Asked:
-    """What a test's own options are settled by."""
+    """Values from which a test determines its own options."""
 
     test: str
     sizes: Mapping[str, float]  #: of the specimen [m]
@@ -77,17 +77,17 @@ class Asked:
     def number(
         self, name: str, usual: float, bounds: Bounds = ANY, unit: str = "m", why: str = ""
     ) -> float:
-        """A number, or what is usual, within its bounds.
+        """Return the value of a numeric option, or its default, within its bounds.
 
         Args:
             name: Name of the option.
-            usual: Its value if it is not given.
-            bounds: Its range.
-            unit: Its unit.
+            usual: Default.
+            bounds: Range.
+            unit: Unit.
             why: Reason of the bounds and remedy, for the message.
 
         Raises:
-            InputError: for one out of range.
+            InputError: for a value out of range.
         """
         value = self.values.get(name)
         if value is None:
@@ -97,14 +97,14 @@ class Asked:
 
     @property
     def grain(self) -> float:
-        """Mean diameter of packed grains [m]; 0 of grains that were given."""
+        """Mean diameter of packed grains [m]; 0 for user-supplied grains."""
         return self.diameter or 0.0
 
     def word(self, name: str, choices: tuple[str, ...]) -> str:
-        """One of a few words, the first if none is given.
+        """Return the value of an option with choices; the first choice by default.
 
         Raises:
-            InputError: for another one.
+            InputError: for a value that is not among the choices.
         """
         value = self.values.get(name) or choices[0]
         require_one_of(f"run: {name}", value, choices)
@@ -112,7 +112,7 @@ class Asked:
 
 
 def control_of(*measures: str) -> Option:
-    """The option of tests in which one of several measures can grow at the rate, first the ends."""
+    """Return the option for the quantity that grows at the rate; the first is of the ends."""
     return Option(
         "control",
         "Quantity that grows at the loading rate; the loaded part moves back where the specimen "
@@ -137,10 +137,10 @@ END_FRICTION = Option(
 
 
 def end_friction_of(asked: Asked) -> Mapping[str, Value]:
-    """Friction of the ends; none if it is 0.
+    """Return the friction of the ends; None if it is 0.
 
     Raises:
-        InputError: for one out of range, or for a 2D specimen.
+        InputError: for a value out of range, or for a 2D specimen.
     """
     name = END_FRICTION.name
     if asked.values.get(name) is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tests between parts measure from their record. SI units."""
+"""Measures of tests between parts, from their record. SI units."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ _REST = 0.1
 
 
 def work(record: Columns) -> float:
-    """Work of the load over its way [J]."""
+    """Return the work of the load over the displacement [J]."""
     load, way = record["load"], record["displacement"]
     means = 0.5 * (load[1:] + load[:-1])
     return float(means @ (way[1:] - way[:-1]))
 
 
 def residual(record: Columns) -> float | None:
-    """What is left of the strength: the mean stress over the last tenth of the displacement [Pa].
+    """Return the residual strength [Pa]: mean stress over the last tenth of the displacement.
 
     None for a record without rows or with a number that is not finite.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Length of the pulse of a sonic test, and what it is too short for. SI units."""
+"""Pulse length of a sonic test, and its smallest value in grains. SI units."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ _FEWEST_GRAINS = 20.0
 
 
 def require_pulse(height: float, diameter: float) -> None:
-    """Refuse a specimen in which the pulse would be shorter than 20 grains.
+    """Raise InputError for a specimen in which the pulse would be shorter than 20 grains.
 
     Args:
         height: Height of the specimen [m].
-        diameter: Mean of the grains [m].
+        diameter: Mean diameter of the grains [m].
     """
     grains = PULSE * height / diameter
     if not grains >= _FEWEST_GRAINS:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How fast a test is driven on a model, and by which ratios it counts as quasi-static.
+"""Loading rates of a test with a model, and the ratios below which it is quasi-static.
 
-The rates (paper Sec. 4.1, D5) come from halving them on three packings until the mean peak stood
-still: of the paper's size for flexible and rigid grains. The tables and the command are in the
-documentation.
+The rates (paper Sec. 4.1, D5) were halved on three packings until the mean peak no longer changed.
+The packings have the size of the paper for flexible and rigid grains. The documentation has the
+tables and the command.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ WAITING_CONSTANT = 0.16
 
 @dataclass(frozen=True)
 class Rates:
-    """Rates of a test on a model; None for what it is not loaded by."""
+    """Rates of a test with a model; None for a loading that the test does not have."""
 
     #: k of the loading rate [-]: the mean strain grows by k times the reference strain while a wave
     #: crosses the specimen once. Halving it moved the mean peak by less than 2 %.

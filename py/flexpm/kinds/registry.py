@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All tests by their names: each file of the folder tests is one."""
+"""All tests by name; each file of the folder tests defines a test."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ ELASTIC = next(name for name, kind in KINDS.items() if kind.is_solve)
 
 
 def kind_of(test: str) -> TestKind:
-    """A test by its name; a script's own if there is none of that name."""
+    """Return the test with a name; for any other name the custom test."""
     return KINDS.get(test, OWN)
 
 
 def names(which: Callable[[TestKind], bool]) -> tuple[str, ...]:
-    """Names of the tests of which something holds."""
+    """Return the names of the tests that satisfy a condition."""
     return tuple(name for name, kind in KINDS.items() if which(kind))
 
 
 def of_ends(shape: str, *, pulls: bool = False, confined: bool = False) -> str:
-    """Name of the test between the ends of a specimen."""
+    """Return the name of the test between the ends of a specimen."""
 
     def fits(kind: TestKind) -> bool:
         # a disc has one test, whatever presses on it
@@ -52,7 +52,7 @@ def of_ends(shape: str, *, pulls: bool = False, confined: bool = False) -> str:
 
 
 def options() -> dict[str, dict[str, Option]]:
-    """Options that not all tests have: by name, then by the test that has them."""
+    """Return the options that not all tests have: by name, then by test."""
     found: dict[str, dict[str, Option]] = {}
     for name, kind in KINDS.items():
         for option in kind.options:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tests have in common in which one part slides along another. Deviations D46 and D65."""
+"""Common parts of the tests in which a part slides along another. Deviations D46 and D65."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ DRAWN = Drawn("displacement", "displacement", 1e6, "µm")
 
 
 def way(asked: Asked, size: float) -> dict[str, Value]:
-    """The displacement at which the test ends, if it is given, below a size of the specimen [m]."""
+    """Return the final displacement of the test if it is given [m]; it must be below `size`."""
     if asked.values.get(WAY.name) is None:
         return {}
     return {WAY.name: asked.number(WAY.name, 0.0, Bounds(above=0.0, below=size))}

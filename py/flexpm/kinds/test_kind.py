@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a test is: shape, options, models, stages, parts, measures, words and rates."""
+"""Definition of a test: shapes, options, models, stages, parts, measures, words and rates."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PLATEAU_STRAIN = 0.005
 
 
 class Rig(Enum):
-    """What holds and loads a specimen."""
+    """Type of rig that loads a specimen."""
 
     ENDS = "ends"  #: its lower and upper end, or two plates on a disc
     PARTS = "parts"  #: what a layout says
@@ -30,7 +30,7 @@ class Rig(Enum):
 
 
 class Stage(Enum):
-    """What a run does, one after the other."""
+    """Stage of a run; a test has a sequence of stages."""
 
     CONFINE = "confine"  #: presses on all sides with the confinement
     PRESS = "press"  #: presses on the layout's pressed part
@@ -49,7 +49,7 @@ def _above_the_notch(frame: Frame) -> float:
 
 @dataclass(frozen=True)
 class Variant:
-    """A test on specimens of one shape."""
+    """Variant of a test for specimens of a shape."""
 
     rates: Mapping[str, Rates] = field(default_factory=dict)  #: by model
     only_models: tuple[str, ...] = ()  #: its models, if it has no rates
@@ -63,13 +63,13 @@ class Variant:
 
     @property
     def models(self) -> tuple[str, ...]:
-        """Names of its models."""
+        """Names of the models of this variant."""
         return tuple(self.rates) or self.only_models
 
 
 @dataclass(frozen=True)
 class TestKind:
-    """One test. Fields that are left out are those of compression between the ends."""
+    """Definition of a test; the defaults are the values of compression between the ends."""
 
     __test__ = False  # no test of pytest
 
@@ -130,12 +130,12 @@ class TestKind:
     envelope: bool = False  #: its peaks make a strength envelope
 
     def has(self, option: str) -> bool:
-        """Whether an option that not all tests have is one of this test."""
+        """Whether the test has an option that not all tests have."""
         return any(one.name == option for one in self.options)
 
     @property
     def shapes(self) -> tuple[str, ...]:
-        """Shapes of its specimens, the usual one first."""
+        """Shapes of its specimens, the usual shape first."""
         return tuple(self.variants)
 
     @property
@@ -150,7 +150,7 @@ class TestKind:
 
     @property
     def usual(self) -> Variant:
-        """The test on its usual shape."""
+        """Variant for the usual shape."""
         return self.variants[self.shape]
 
     @property
@@ -165,42 +165,42 @@ class TestKind:
 
     @property
     def results(self) -> Mapping[str, int]:
-        """Numbers of the results for its usual shape, by model."""
+        """Result versions for its usual shape, by model."""
         return self.usual.results
 
     @property
     def sizes(self) -> Mapping[str, float]:
-        """Default sizes of its usual shape, where they are not the shape's [m]."""
+        """Default sizes of its usual shape that differ from the defaults of the shape [m]."""
         return self.usual.sizes
 
     def variant_in(self, *, solid: bool) -> Variant | None:
-        """The first variant of a dimension."""
+        """Return the first variant in 2D or 3D, or None."""
         found = (one for shape, one in self.variants.items() if is_solid(shape) == solid)
         return next(found, None)
 
     def variant_of(self, shape: str) -> Variant:
-        """The variant of a shape; of another shape than its own that of the same dimension."""
+        """Return the variant for a shape, or else the first variant of the same dimension."""
         return self.variants.get(shape) or self.variant_in(solid=is_solid(shape)) or self.usual
 
     def models_of(self, shape: str) -> tuple[str, ...]:
-        """Models for a shape."""
+        """Return the models for a shape."""
         return self.variant_of(shape).models
 
     def sizes_of(self, shape: str) -> Mapping[str, float]:
-        """Default sizes of a shape, where they are not the shape's [m]."""
+        """Return the default sizes of a shape that differ from the defaults of the shape [m]."""
         return self.variant_of(shape).sizes
 
     @property
     def starts_static(self) -> bool:
-        """Whether it may start at the elastic solution, on any of its shapes."""
+        """Whether a variant may start from the elastic solution."""
         return any(one.static_models for one in self.variants.values())
 
     @property
     def is_solve(self) -> bool:
-        """Whether it is a direct solve, without steps."""
+        """Whether the test is a direct solve without steps."""
         return self.rig is Rig.NONE
 
     @property
     def settles(self) -> bool:
-        """Whether the specimen comes to rest under a pressure before it is loaded."""
+        """Whether the specimen settles under a pressure before the loading."""
         return not {Stage.CONFINE, Stage.PRESS}.isdisjoint(self.stages)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fracture toughness of notched specimens by handbook functions. SI units.
+"""Fracture toughness of notched specimens from handbook functions. SI units.
 
-Nothing heavy is loaded here, so that inputs are checked before YADE starts.
+Only light modules are loaded, so that inputs are checked before YADE starts.
 """
 
 from __future__ import annotations
@@ -20,10 +20,15 @@ _DIGITS = 1e-9
 
 
 def require_span(span: float, height: float, notch: float) -> None:
-    """Refuse a span for which no function gives the toughness of a notched beam.
+    """Check that a function exists for the toughness of a notched beam with this span.
+
+    Args:
+        span: Distance between the supports [m].
+        height: Height of the beam [m].
+        notch: Depth of the notch [m]; 0: no notch, and any span is valid.
 
     Raises:
-        InputError: for a span below 2.5 times the height, if there is a notch.
+        InputError: for a span below 2.5 times the height if there is a notch.
     """
     if notch > 0.0 and not span >= LEAST_SPAN * height:
         raise InputError(
@@ -34,7 +39,12 @@ def require_span(span: float, height: float, notch: float) -> None:
 
 
 def require_half_disc(span: float, radius: float, notch: float) -> None:
-    """Refuse a span or a notch for which no function gives the toughness of half a disc.
+    """Check that a function exists for the toughness of half a disc with this span and notch.
+
+    Args:
+        span: Distance between the supports [m].
+        radius: Radius of the disc [m].
+        notch: Depth of the notch [m].
 
     Raises:
         InputError: for a span or a notch out of the range of the function.
@@ -51,15 +61,15 @@ def require_half_disc(span: float, radius: float, notch: float) -> None:
 
 
 def half_disc_function(ratio: float, slenderness: float) -> float:
-    """Stress intensity of half a disc in three-point bending over its stress and sqrt(pi notch).
+    """Return the ratio of K_I of half a disc in three-point bending to stress and sqrt(pi notch).
 
     M. D. Kuruppu, Y. Obara, M. R. Ayatollahi, K. P. Chong, T. Funatsu: ISRM-suggested method for
     determining the mode I static fracture toughness using semi-circular bend specimen. Rock
     Mechanics and Rock Engineering 47 (2014) 267-274.
 
     Args:
-        ratio: Notch over radius, 0.4 to 0.6 [-].
-        slenderness: Span over diameter, 0.5 to 0.8 [-].
+        ratio: Ratio of notch to radius, 0.4 to 0.6 [-].
+        slenderness: Ratio of span to diameter, 0.5 to 0.8 [-].
 
     Returns:
         Y' = K_I / (sigma sqrt(pi notch)), with sigma = P / (2 radius thickness) [-].
@@ -73,16 +83,16 @@ def half_disc_function(ratio: float, slenderness: float) -> float:
 def half_disc_toughness(
     load: float, *, span: float, radius: float, thickness: float, notch: float
 ) -> float | None:
-    """Stress intensity K_I of half a disc with a notch under a load on top [Pa m^0.5].
+    """Return the stress intensity K_I of half a notched disc under a load on top [Pa m^0.5].
 
-    None for a notch or a span out of the range of its function.
+    None for a notch or a span out of the range of `half_disc_function`.
 
     Args:
-        load: [N].
-        span: Distance of the supports [m].
+        load: Load P [N].
+        span: Distance between the supports [m].
         radius: Radius of the disc [m].
         thickness: Thickness of the disc [m].
-        notch: Depth from the middle of the flat side [m].
+        notch: Depth of the notch from the middle of the flat side [m].
     """
     ratio, slenderness = notch / radius, 0.5 * span / radius
     if not (_is_within(ratio, HALF_DISC_NOTCHES) and _is_within(slenderness, HALF_DISC_SPANS)):
@@ -96,14 +106,14 @@ def _is_within(value: float, bounds: tuple[float, float]) -> bool:
 
 
 def bending_function(ratio: float, slenderness: float) -> float:
-    """Stress intensity of a beam in three-point bending over its bending stress and sqrt(height).
+    """Return the ratio of K_I of a beam in three-point bending to bending stress and sqrt(height).
 
     G. V. Guinea, J. Y. Pastor, J. Planas, M. Elices: Stress intensity factor, compliance and CMOD
     for a general three-point-bend beam. International Journal of Fracture 89 (1998) 103-116.
 
     Args:
-        ratio: Notch over height, above 0 and below 1 [-].
-        slenderness: Span over height, at least 2.5 [-].
+        ratio: Ratio of notch to height, above 0 and below 1 [-].
+        slenderness: Ratio of span to height, at least 2.5 [-].
 
     Returns:
         K_I / (sigma sqrt(height)), with sigma = 3 P span / (2 thickness height^2) [-].
@@ -118,14 +128,14 @@ def bending_function(ratio: float, slenderness: float) -> float:
 def bending_toughness(
     load: float, *, span: float, height: float, thickness: float, notch: float
 ) -> float:
-    """Stress intensity K_I of a notched beam under a load in its middle [Pa m^0.5].
+    """Return the stress intensity K_I of a notched beam under a load in its middle [Pa m^0.5].
 
     Args:
-        load: [N].
-        span: Distance of the supports [m].
+        load: Load P [N].
+        span: Distance between the supports [m].
         height: Height of the beam [m].
         thickness: Thickness of the beam [m].
-        notch: Depth from the side opposite to the load [m].
+        notch: Depth of the notch from the side opposite to the load [m].
     """
     stress = 1.5 * load * span / (thickness * height**2)
     return stress * math.sqrt(height) * bending_function(notch / height, span / height)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a test calls its stress, its strain and its measures, in tables and pictures."""
+"""Names of stress, strain and measures of a test, in tables and plots."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ if TYPE_CHECKING:
 
 
 class Columns(Protocol):
-    """A record, as far as it is read here."""
+    """Protocol of a record: access to its columns."""
 
     def __getitem__(self, name: str) -> FloatArray:
-        """Values of a column."""
+        """Return the values of a column."""
 
 
 class Drawn(NamedTuple):
-    """A column of the record as an axis of a picture."""
+    """A column of the record as an axis of a plot."""
 
     column: str
     name: str
@@ -31,13 +31,13 @@ class Drawn(NamedTuple):
         return f"{self.name} [{self.unit}]"
 
     def of(self, record: Columns) -> FloatArray:
-        """Values of a record along the axis [`unit`]."""
+        """Return the values of a record along the axis [`unit`]."""
         values: FloatArray = self.factor * record[self.column]
         return values
 
 
 class Shown(NamedTuple):
-    """A measure as tables of several runs show it."""
+    """Format of a measure in tables of several runs."""
 
     factor: float
     heading: str
@@ -45,12 +45,12 @@ class Shown(NamedTuple):
 
 
 def strain(name: str) -> Drawn:
-    """The record's strain under a name."""
+    """Return the axis of the record's strain, with a name."""
     return Drawn("axial_strain", name, 100.0, "%")
 
 
 def stress(name: str) -> Drawn:
-    """The record's stress under a name."""
+    """Return the axis of the record's stress, with a name."""
     return Drawn("axial_stress", name, 1e-6, "MPa")
 
 
@@ -78,7 +78,7 @@ _STRAIN, _STRESS = strain("axial strain"), stress("axial stress")
 
 @dataclass(frozen=True)
 class Words:
-    """Words of a test; those of the ends of a rectangle unless told otherwise."""
+    """Words of a test; the defaults are the words of a test between the ends of a rectangle."""
 
     x: Drawn = _STRAIN
     y: Drawn = _STRESS
@@ -91,15 +91,15 @@ class Words:
 
     @property
     def shown(self) -> dict[str, Shown]:
-        """Measures of tables of several runs, in their order."""
+        """Measures in tables of several runs, in their order."""
         return {name: SHOWN[name] for name in self.measures}
 
     def title(self, also: str = "") -> str:
-        """Heading of a picture of the record, and of what it shows beside the test's own."""
+        """Return the heading of a plot of the record; `also` names additional quantities."""
         name = self.y.name if (self.y.column, self.y.unit) != ("axial_stress", "MPa") else "stress"
         return f"{name[0].upper()}{name[1:]}{also} over {self.over}"
 
     @property
     def over(self) -> str:
-        """What is drawn along the axis x, in one word where it is a strain."""
+        """Name of the quantity along the axis x; ``strain`` for a strain in percent."""
         return self.x.name if (self.x.column, self.x.unit) != ("axial_strain", "%") else "strain"

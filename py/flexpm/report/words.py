@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What each test calls its stress, its strain and its measures, in tables and pictures.
+"""Names of stress, strain and measures of each test, in tables and plots.
 
-Nothing heavy is loaded here: the command writes tables.
+Only light modules are loaded, since the command writes tables.
 """
 
 from __future__ import annotations
@@ -20,20 +20,21 @@ __all__ = ["Drawn", "Shown", "Words", "turns_by", "words_of_result", "words_of_t
 
 
 def words_of_test(test: str) -> Words:
-    """Words of a test, by its name."""
+    """Return the words of a test with a name."""
     return kind_of(test).words
 
 
 def turns_by(drive: Table, *, solid: bool) -> bool:
-    """Whether a drive turns its parts: its load is a moment then, its way an angle.
+    """Return whether the parts of a drive rotate: load is then a moment, displacement an angle.
 
-    In the plane z is the axis of a turn, in space a direction like others.
+    In 2D a rotation has the direction z; in 3D z is a direction like others, and the drive has a
+    flag.
     """
     return bool(drive.get("turns", False) if solid else drive["direction"][2] != 0.0)
 
 
 def words_of_result(result: Result) -> Words:
-    """Words of a test that has a result: those of a script's own follow from what it drove."""
+    """Return the words of a result's test; for a custom test they follow from its drive."""
     if result.test != OWN.name or result.inputs is None:
         return words_of_test(result.test)
     drive = result.inputs.get("drive")

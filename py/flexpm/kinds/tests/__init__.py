@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tests, one file each, whose ``KIND`` says all that the others look up."""
+"""The tests, one file each, whose ``KIND`` holds the complete definition."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A beam on two supports, pressed in the middle. Deviation D39."""
+"""Three-point bending of a beam on two supports. Deviation D39."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compression under a lateral pressure, which acts on all sides first. Paper Sec. 4.1."""
+"""Compression under a lateral pressure, which first acts on all sides. Paper Sec. 4.1."""
 
 from ..rates import Rates
 from ..test_kind import Stage, TestKind, Variant

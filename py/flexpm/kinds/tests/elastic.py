@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Elastic constants of a rectangle or a solid by one static solve, which is no simulation."""
+"""Elastic constants of a rectangle or a 3D specimen by a single static solve without steps."""
 
 from ..model_names import BLOCK_MODELS, GRAIN_MODELS
 from ..test_kind import Rig, TestKind, Variant

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A test of a script's own, between parts that it lays itself."""
+"""Custom test of a script, between parts that the script adds."""
 
 from ..model_names import BLOCK_MODELS
 from ..rates import Rates

@@ -2,7 +2,7 @@
 """Punch-through shear: the middle of a rectangle is pushed out between two bridges. Deviation D65.
 
 After T. Backers, O. Stephansson: ISRM suggested method for the determination of mode II fracture
-toughness. Rock Mechanics and Rock Engineering 45 (2012) 1011-1022, in the plane.
+toughness. Rock Mechanics and Rock Engineering 45 (2012) 1011-1022, in 2D.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
 
 
 def _places(frame: Frame) -> tuple[float, float]:
-    """Places of the pairs of notches, across [m]."""
+    """Return the coordinates of both pairs of notches along x [m]."""
     half = 0.5 * frame.number("distance")
     return frame.middle - half, frame.middle + half
 
@@ -70,7 +70,7 @@ def _cut(frame: Frame) -> Lines:
 
 
 def _bridges(frame: Frame) -> tuple[float, float]:
-    """Lengths of both bridges as cut [m]."""
+    """Return the lengths of both bridges as cut [m]."""
     half = 0.5 * (frame.bottom + frame.top)
     ends = [(float(x), float(y)) for x, y in frame.notch.reshape(-1, 2)]
 
@@ -88,7 +88,7 @@ def _area(frame: Frame) -> float:
 
 
 def _punched(frame: Frame) -> Layout:
-    """A platen above the middle, supports below the rest, walls where there is a pressure."""
+    """Return the layout: platen on the middle, supports at the outer parts, walls if pressed."""
     left, right = _places(frame)
     pressure = frame.number("confinement")
     clear = 0.5 * frame.grain  # of a platen from a notch

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Half a disc with a notch on two supports, pressed on top. Deviation D50."""
+"""Three-point bending of half a disc with a notch, loaded on top. Deviation D50."""
 
 from __future__ import annotations
 

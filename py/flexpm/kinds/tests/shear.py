@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Direct shear: the lower half of a rectangle is pushed along below the upper. Deviation D46."""
+"""Direct shear: the lower half of a rectangle slides below the upper half. Deviation D46."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
 
 
 def _between_boxes(frame: Frame) -> Layout:
-    """Both halves in a box each, the lower one driven."""
+    """Return the layout: each half in a box, the lower box driven."""
     length = 0.5 * (frame.height - frame.grain)
     middle = 0.5 * (frame.bottom + frame.top)
     heights = {"lower": frame.bottom + 0.5 * length, "upper": frame.top - 0.5 * length}

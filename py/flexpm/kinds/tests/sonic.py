@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A plane pulse through a rectangle or a solid, from its bottom to its top. D48, D49, D98."""
+"""A plane pulse through a rectangle or a 3D specimen, from bottom to top. D48, D49, D98."""
 
 from __future__ import annotations
 

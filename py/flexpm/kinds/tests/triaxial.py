@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compression of a solid under pressures on its sides, which act first. Deviations D93, D94."""
+"""Compression of a 3D specimen under lateral pressures, which act first. Deviations D93, D94."""
 
 from __future__ import annotations
 
