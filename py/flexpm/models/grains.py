@@ -223,7 +223,7 @@ class Model:
 
     @property
     def joint_deviation(self) -> float | None:
-        """Largest distance of a bearing joint from its lines [m]: `Specimen.joint_deviations`."""
+        """Largest deviation of a load-carrying joint [m], see `Specimen.joint_deviations`."""
         bearing = {joint.name for joint in self.material.joints if not joint.open}
         bends = self.specimen.joint_deviations().items()
         return max((bend for name, bend in bends if name in bearing), default=None)

@@ -1,22 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bonds of YADE's own bonded models on the edges that grains share: the mapping rule. SI units.
 
-A bond stands on a shared edge of length L, area A = L t. From the material's rigid elastic set and
-its strengths it takes
+A bond represents a shared edge of length L and area A = L t. Its parameters follow from the
+material's rigid elastic set and strengths:
 
     k_n = K_n A,  k_s = eta k_n,  k_b = K_n A L^2 / 12  (bending; CohFrict only),
-    F_t = sigma_t A,  F_s = c A + mu F_n  (F_n compressive positive),
+    F_t = sigma_t A,  F_s = c A + mu F_n  (F_n compressive positive).
 
-so that one bond carries in tension and in shear what the edge's contact points carry together. A
-bond of a solid stands on a shared face, with its area A and its polar moment J about its centroid:
-bending takes K_n J / 2, the mean about all axes of the face, twisting eta K_n J. Deviation D92.
-Both models break at once: fracture energies are not used. Strengths are forces and magnitudes.
+A single bond thus carries in tension and in shear the sum of the contact points of its edge. A bond
+in 3D represents a shared face with its area A and its polar moment J about the centroid. Its
+bending stiffness is K_n J / 2, the mean over all axes of the face, and its twisting stiffness is
+eta K_n J. Deviation D92. Both models break suddenly: fracture energies are not used. Strengths are
+forces and magnitudes.
 
 Grains of several minerals have the law of their pair, as in the other models (deviation D27).
 
-Pairs within an interaction range are bonded, too, if one is asked for: as if they shared an edge of
-the length of the smaller disc's diameter, across their middle (deviation D61); in a solid as if
-they shared a disc as wide as the smaller sphere.
+If an interaction range is given, pairs within this range are also bonded (deviation D61). In 2D
+they get an edge across their middle, with the diameter of the smaller disc as its length. In 3D
+they get a disc with the diameter of the smaller sphere.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ SMALLEST_SPHERE = 1e-6
 
 @dataclass(frozen=True)
 class Laws:
-    """Effective parameters of grains and of their pairs, ``Material.law``."""
+    """Effective parameters of grains and of their pairs, from ``Material.law``."""
 
     minerals: IntArray  #: of each grain
     grains: Sequence[Law]  #: of each mineral, of the rock if grains are alike
@@ -51,32 +52,37 @@ class Laws:
 
     @property
     def are_alike(self) -> bool:
-        """Whether the rock has one kind of grain."""
+        """Whether all grains have the same law."""
         return len(self.grains) == 1
 
     def of_grains(self, key: str) -> FloatArray:
-        """Value of a key for each grain."""
+        """Return the value of a key for each grain, (n,)."""
         values: FloatArray = _values(self.grains, key)[self.minerals]
         return values
 
     def of_contacts(self, key: str, grains: IntArray) -> FloatArray:
-        """Value of a key for the contacts of two grains each, (n, 2)."""
+        """Return the value of a key for each contact, (n,), with the grains (n, 2)."""
         first, second = self.minerals[grains].T
         values: FloatArray = _values(self.pairs, key)[first * len(self.grains) + second]
         return values
 
     def mean(self, key: str) -> float:
-        """Mean of a key over the grains, to the bit if they are alike."""
+        """Return the mean of a key over the grains; the exact value if all grains are equal."""
         if self.are_alike:
             return float(_values(self.grains, key)[0])
         return float(np.mean(self.of_grains(key)))
 
 
 def laws_of(specimen: AnySpecimen, material: Material, model: str) -> Laws:
-    """Effective parameters of the minerals of a specimen and of their pairs.
+    """Return the effective parameters of the minerals of a specimen and of their pairs.
+
+    Args:
+        specimen: The grains.
+        material: Material of the rock.
+        model: Name of the model.
 
     Raises:
-        InputError: for minerals that the model cannot have or that do not go together.
+        InputError: for minerals that the model does not support or that are not consistent.
     """
     description(material, model)
     found = minerals_of(specimen, material)
@@ -92,7 +98,7 @@ def _values(laws: Sequence[Law], key: str) -> FloatArray:
 
 @dataclass(frozen=True)
 class Bonds:
-    """Properties of all bonds, one row each."""
+    """Properties of all bonds, one row for each bond."""
 
     grains: IntArray  #: (n, 2)
     ends: FloatArray  #: ends of the shared edges, (n, 2, 2), middles of the faces, (n, 1, 3) [m]
@@ -109,26 +115,29 @@ class Bonds:
         return len(self.grains)
 
     def chosen(self, rows: BoolArray) -> Bonds:
-        """Those of the rows that are true."""
+        """Return the bonds whose rows are true, (n,)."""
         return Bonds(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})
 
 
 def in_order(values: Iterable[float]) -> float:
-    """Sum of numbers from the first to the last, each sum rounded.
+    """Return the sum of numbers from first to last, rounded after each addition.
 
-    ``sum`` gives other bits since Python 3.12, which carries the rounding errors along.
+    ``sum`` yields other bits since Python 3.12, which compensates rounding errors.
     """
     return reduce(operator.add, values, 0.0)
 
 
 def bonds_of(specimen: AnySpecimen, laws: Laws, interaction_range: float | None = None) -> Bonds:
-    """Bonds of a specimen.
+    """Return the bonds of a specimen.
 
     Args:
-        specimen: The grains; a bond stands on each edge, or face, that two of them share.
+        specimen: The grains; each edge, in 3D each face, that two grains share has a bond.
         laws: Effective parameters.
-        interaction_range: Distance up to which discs are bonded, too, over the sum of their radii
-            [-]; None for none but those.
+        interaction_range: Ratio of the largest distance of bonded discs to the sum of their radii
+            [-]; None: only discs that share an edge or a face are bonded.
+
+    Returns:
+        The bonds.
     """
     if isinstance(specimen, SolidSpecimen):
         return _bonds_of_solid(specimen, laws, interaction_range)
@@ -161,7 +170,7 @@ def _bonds_of_solid(specimen: SolidSpecimen, laws: Laws, interaction_range: floa
 
 
 def _bonds(laws: Laws, grains: IntArray, ends: FloatArray, areas: FloatArray) -> Bonds:
-    """Bonds that do not resist turning."""
+    """Return bonds that do not resist rotations."""
     of_bonds = partial(laws.of_contacts, grains=grains)
     normal = of_bonds("normal_stiffness") * areas
     return Bonds(
@@ -179,7 +188,7 @@ def _bonds(laws: Laws, grains: IntArray, ends: FloatArray, areas: FloatArray) ->
 
 
 def _farther_pairs(specimen: AnySpecimen, bonded: IntArray, interaction_range: float) -> IntArray:
-    """Pairs of discs or spheres within a range that share no edge or face."""
+    """Return the pairs of discs or spheres within a range that share no edge or face, (n, 2)."""
     from scipy.spatial import cKDTree
 
     centres, radii = specimen.centres, specimen.radii
@@ -195,7 +204,7 @@ def _farther_pairs(specimen: AnySpecimen, bonded: IntArray, interaction_range: f
 
 
 def _meet_outline(specimen: Specimen, lines: FloatArray) -> BoolArray:
-    """Whether each line between two points inside, (n, 2, 2) [m], meets an outer edge."""
+    """Return whether lines between inner points, (n, 2, 2) [m], intersect an outer edge."""
     cells = specimen.tessellation
     outer = np.array(cells.boundary_edges, dtype=int)[:, 1:3]
     start, end = np.moveaxis(np.array(cells.vertices)[outer], 1, 0)
@@ -210,16 +219,16 @@ def _meet_outline(specimen: Specimen, lines: FloatArray) -> BoolArray:
 
 
 def _side(start: FloatArray, end: FloatArray, point: FloatArray) -> BoolArray:
-    """Whether points lie left of lines."""
+    """Return whether points are left of lines."""
     along, to = end - start, point - start
     left: BoolArray = along[..., 0] * to[..., 1] - along[..., 1] * to[..., 0] > 0.0
     return left
 
 
 def _edges_across(specimen: Specimen, pairs: IntArray) -> FloatArray:
-    """Ends of the edges that pairs without one get, as long as the smaller disc is wide [m].
+    """Return the ends of the edges of pairs without a shared edge [m]; D61.
 
-    Deviation D61.
+    The length of each edge is the diameter of the smaller disc.
     """
     centres, radii = specimen.centres[pairs], specimen.radii[pairs]
     along = centres[:, 1] - centres[:, 0]
@@ -230,7 +239,7 @@ def _edges_across(specimen: Specimen, pairs: IntArray) -> FloatArray:
 
 
 def _discs_across(specimen: SolidSpecimen, pairs: IntArray) -> Faces:
-    """Discs as wide as the smaller sphere in the gaps of pairs that share no face (D61)."""
+    """Return discs with the smaller sphere's diameter between pairs without a shared face (D61)."""
     centres, radii = specimen.centres[pairs], specimen.radii[pairs]
     along = centres[:, 1] - centres[:, 0]
     along /= np.hypot.reduce(along, axis=1)[:, None]
@@ -241,12 +250,15 @@ def _discs_across(specimen: SolidSpecimen, pairs: IntArray) -> Faces:
 
 
 def tributary_sizes(specimen: AnySpecimen, side: int) -> dict[int, float]:
-    """Length [m], of a solid area [m2], of the specimen's side that belongs to each grain.
+    """Return the length [m], in 3D the area [m2], of a specimen side that belongs to each grain.
 
     Args:
         specimen: The grains.
-        side: Side of the outline; of a rectangle 0 bottom, 1 right, 2 top, 3 left, of a solid 0
+        side: Index of the side; of a rectangle 0 bottom, 1 right, 2 top, 3 left; of a 3D specimen 0
             bottom, 2 top.
+
+    Returns:
+        Length or area by grain.
     """
     if isinstance(specimen, SolidSpecimen):
         grains, sides, vectors = outer_faces(specimen)
@@ -266,13 +278,14 @@ def tributary_sizes(specimen: AnySpecimen, side: int) -> dict[int, float]:
 
 
 def separate_radii(specimen: AnySpecimen) -> FloatArray:
-    """Radii [m] shrunk, disc by disc, until no two overlap and none leaves a rectangle or solid.
+    """Return radii [m] that are reduced until no discs overlap and none leaves the specimen.
 
-    CohFrict forgets the reference distance of a bond that breaks: discs that overlapped then would
-    fly apart. A pair gets the share of its distance that its discs' radii have.
+    Radii are reduced disc by disc; the outline counts for a rectangle or a 3D specimen. CohFrict
+    does not keep the reference distance of a broken bond, so that overlapping discs would fly
+    apart. Each pair shares its distance in the ratio of its radii.
 
     Raises:
-        InputError: for a disc of which nothing is left, as its centre lies on the outline.
+        InputError: for a disc whose radius becomes 0 because its centre is on the outline.
     """
     from scipy.spatial import cKDTree
 
@@ -298,19 +311,19 @@ def separate_radii(specimen: AnySpecimen) -> FloatArray:
 def stiffness_bounds(
     centres: FloatArray, radii: FloatArray, bonds: Bonds, bending: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Bounds of the row sums of the stiffness matrix, by grain.
+    """Return upper bounds of the row sums of the stiffness matrix, by grain.
 
-    Rotations count as disc radius times angle, so that both kinds of motion have one unit; the
-    levers of a bond are the parts of the distance of its two centres.
+    Rotations are scaled by the disc radius, so that both types of motion have the same unit. The
+    lever arms of a bond divide the distance of its two centres.
 
     Args:
-        centres: Centres of the spheres, (n, 2), or (n, 3) of a solid [m].
-        radii: Radii of the spheres [m].
-        bonds: Their bonds.
+        centres: Centres of the spheres, (n, 2), in 3D (n, 3) [m].
+        radii: Radii of the spheres, (n,) [m].
+        bonds: Bonds of the spheres.
         bending: Whether bonds resist bending.
 
     Returns:
-        For translations [N/m] and for rotations [N m].
+        Bounds for translations [N/m] and for rotations [N m], (n,) each.
     """
     first, second = bonds.grains.T
     apart = np.hypot.reduce(centres[second] - centres[first], axis=1)
@@ -340,17 +353,17 @@ def touched_bounds(
     stiffness: FloatArray,
     bending: bool,
 ) -> tuple[FloatArray, FloatArray]:
-    """Bounds of the stiffness of each sphere that a plate may touch, too.
+    """Return upper bounds of the stiffness of each sphere, contacts with plates included.
 
     Args:
         specimen: The grains.
-        radii: Radii of the spheres [m].
+        radii: Radii of the spheres, (n,) [m].
         bonds: Properties of the bonds.
-        stiffness: K_n of each grain [Pa/m].
+        stiffness: K_n of each grain, (n,) [Pa/m].
         bending: Whether bonds resist bending.
 
     Returns:
-        For translations [N/m] and for rotations [N m].
+        Bounds for translations [N/m] and for rotations [N m], (n,) each.
     """
     move, turn = stiffness_bounds(specimen.centres, radii, bonds, bending)
     if isinstance(specimen, SolidSpecimen):

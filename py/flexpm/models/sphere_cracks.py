@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cracks of YADE's own bonded models, found by looking at their bonds. SI units.
+"""Cracks of YADE's own bonded models, detected from the state of their bonds. SI units.
 
-A bond that is neither broken nor there any more has been erased by a script, which is no crack.
+A bond that is neither broken nor present has been erased by a script, which is not a crack.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ _FOUND = ("steps", "modes", "places")
 
 
 def body_with(number: int) -> wrapper.Body | None:
-    """The body with a number, None if it was erased."""
+    """Return the body with an ID, or None if it was erased."""
     bodies = yade.O.bodies
     return bodies[number] if number < len(bodies) else None
 
 
 class CrackWatch:
-    """Finds bonds that have broken or were erased, with step, mode and place."""
+    """Detection of broken and erased bonds, with step, mode and position."""
 
     def __init__(
         self,
@@ -41,11 +41,11 @@ class CrackWatch:
         """Watch bonds from the present state on.
 
         Args:
-            kind: What tells that a bond has broken.
-            law: The contact law's functor.
-            interactions: One for each bond.
-            bonds: Their properties.
-            bodies: Body of each grain.
+            kind: Law with the criterion for broken bonds.
+            law: Functor of the contact law.
+            interactions: Interaction of each bond.
+            bonds: Properties of the bonds.
+            bodies: Body ID of each grain.
         """
         self._kind, self._bonds, self._bodies = kind, bonds, bodies
         self.rebind(law, interactions)
@@ -58,40 +58,40 @@ class CrackWatch:
     def rebind(
         self, law: wrapper.Functor, interactions: Sequence[wrapper.Interaction | None]
     ) -> None:
-        """Watch the same bonds in a scene that has been loaded; None stands for a lost one."""
+        """Watch the same bonds in a loaded scene; None stands for a lost bond."""
         self._law, self.interactions = law, interactions
         # YADE drops both when the bond is lost; kept here, they still tell how that came
         self.contacts = [None if one is None else one.phys for one in interactions]
         self._shapes = [None if one is None else one.geom for one in interactions]
 
     def memory(self) -> Table:
-        """What has been found, as plain values."""
+        """Return steps, modes and positions found until now, as plain values."""
         self.look_for_erased()
         found = (self.steps, self.modes, self.places)
         return dict(zip(_FOUND, (array.tolist() for array in found), strict=True))
 
     def recall(self, memory: Table) -> None:
-        """Take over what :meth:`memory` gave."""
+        """Restore the values that :meth:`memory` returned."""
         self.steps, self.modes, self.places = (np.array(memory[name]) for name in _FOUND)
 
     @property
     def counts(self) -> tuple[int, int]:
-        """Numbers of tensile and of shear cracks."""
+        """Numbers of tensile and shear cracks."""
         return int(np.sum(self.modes == TENSILE)), int(np.sum(self.modes == SHEAR))
 
     @property
     def alive(self) -> BoolArray:
-        """Whether the body of each grain is there."""
+        """Whether the body of each grain exists, (n,)."""
         return np.array([body_with(number) is not None for number in self._bodies])
 
     @property
     def erased(self) -> BoolArray:
-        """Whether a script has erased each bond or one of its grains; after a look."""
+        """Whether a script had erased each bond or a grain of it at the last look, (n,)."""
         gone: BoolArray = (self.modes == ERASED) | ~self.alive[self._bonds.grains].all(axis=1)
         return gone
 
     def look(self) -> None:
-        """Take note of the bonds that have broken since the last look."""
+        """Record the bonds that have broken since the last call."""
         if not self._kind.may_have_broken(self._law, sum(self.counts)):
             return
         for row in np.flatnonzero(self.steps < 0).tolist():
@@ -99,7 +99,7 @@ class CrackWatch:
                 self._note(row, self._mode(self.contacts[row], row))
 
     def look_for_erased(self) -> None:
-        """Take note of the bonds that a script has erased since the last look."""
+        """Record the bonds that a script has erased since the last call."""
         for row in np.flatnonzero(self.steps < 0).tolist():
             if self._has_broken(row):
                 continue  # for the next look
@@ -121,7 +121,7 @@ class CrackWatch:
         return TENSILE if self._kind.is_tensile(bond, tension, self._bonds, row) else SHEAR
 
     def _normal_force(self, bond: wrapper.IPhys, row: int) -> float:
-        """Force of the last step before the bond broke, compression positive [N]."""
+        """Return the force in the last step before the bond broke, compression positive [N]."""
         first, second = self._bonds.grains[row]
         force = bond.normalForce
         along = self._centre(second) - self._centre(first)
@@ -135,7 +135,7 @@ class CrackWatch:
         return moved
 
     def _centre(self, grain: int) -> FloatArray:
-        """Present centre of a grain, or where an erased one started [m]."""
+        """Return the present centre of a grain, or the initial centre of an erased grain [m]."""
         body = body_with(self._bodies[grain])
         if body is None:
             start: FloatArray = self._start[grain]
