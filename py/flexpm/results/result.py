@@ -218,16 +218,19 @@ class Result(Shown):
         initial_energy: float | None = None,
         diverged: bool = False,
     ) -> None:
-        """Fill the measured quantities and the status from `curve`.
+        """Compute the measured quantities and the status from `curve`.
 
         Args:
-            max_unbalanced: Largest unbalanced-force ratio taken as quasi-static [-]: the median, or
-                that under way; infinite for a test that is to be none.
-            waiting: The loading waited for cracks: the ratio is that under way.
-            crossing: Steps in which a wave crosses a specimen that may fail at once, along a weak
-                plane: its load must not grow fast as the peak comes. None: it tells before.
-            initial_energy: Energy when the work began to count [J]; if None, from the first row.
-            diverged: The simulation met a number that is not finite.
+            max_unbalanced: Largest unbalanced-force ratio of a quasi-static test [-]; infinite for
+                a test that is not quasi-static. It is compared with the median up to the peak, with
+                `waiting` with the ratio that a fifth of the loading exceeds.
+            waiting: Whether the loading was crack-controlled.
+            crossing: Wave transit time of a specimen that may fail suddenly along a weak plane
+                [steps]: its load must not grow fast just before the peak. None: no such check,
+                since failure is announced earlier.
+            initial_energy: Energy at which the work began to count [J]; None: energy of the first
+                row.
+            diverged: Whether the simulation met a number that is not finite.
         """
         whole = self.curve
         record = measures.until_regained(whole) if kind_of(self.test).regains else whole
@@ -419,7 +422,7 @@ class Result(Shown):
 
 
 def _plain(value: object) -> object:
-    """Turn numpy numbers into Python's and numbers that are not finite into None."""
+    """Convert numpy numbers into Python's and numbers that are not finite into None."""
     if isinstance(value, Mapping):
         return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, np.generic):
