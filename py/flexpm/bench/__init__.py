@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times of a step, beside other codes."""
+"""Times of a step, compared with other codes."""

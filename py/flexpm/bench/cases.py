@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The models whose steps are timed, each as a scene that is ready for its first step."""
+"""The timed models, each in a scene that is ready for its first step."""
 
 from __future__ import annotations
 
@@ -26,7 +26,17 @@ _RATE = 0.1
 def build_own(
     specimen: AnySpecimen, threads: int, model: str = "flexible", mesh: str = "refined"
 ) -> Mapping[str, int]:
-    """A uniaxial or Brazilian test as `flexpm run` sets it up, just before its first step."""
+    """Set up a uniaxial or Brazilian test like `flexpm run`, up to its first step.
+
+    Args:
+        specimen: The grains.
+        threads: Threads of a step.
+        model: Name of the model.
+        mesh: Mesh of deformable grains.
+
+    Returns:
+        Counts by name.
+    """
     built = grains.build(specimen, None, model, mesh=mesh, threads=threads)
     assert isinstance(built, grains.Model), model
     start(built)
@@ -34,12 +44,12 @@ def build_own(
 
 
 def start(built: grains.Model | spheres.SphereModel) -> None:
-    """Make a model ready for the first step of a test."""
+    """Prepare a model for the first step of a test."""
     rig(built).start(Loading(rate=_RATE, kind="adaptive"))
 
 
 def _build_yade(specimen: AnySpecimen, threads: int, model: str) -> Mapping[str, int]:
-    """Bonded spheres squeezed at about the same rate, without plates and record."""
+    """Set up bonded spheres compressed at about the same rate, without plates and record."""
     built = grains.build(specimen, None, model, damping=DAMPING, threads=threads)
     assert isinstance(built, spheres.SphereModel), model
     heights = specimen.centres[:, -1]
@@ -81,7 +91,7 @@ BUILDERS: dict[str, tuple[str, Builder]] = {
 
 
 def solid_builders(shape: str) -> dict[str, tuple[str, Builder]]:
-    """Name, label and builder of each model that solids are tested with."""
+    """Return name, label and builder of each model that is timed in 3D."""
     models = next(kind.models_of(shape) for kind in KINDS.values() if shape in kind.variants)
     return {
         name: BUILDERS[name]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a specimen costs besides its steps: set-up, memory, files, and the memory traffic of a step.
+"""Costs of a specimen besides its steps: set-up, memory, files, and memory traffic of a step.
 
 Times in seconds, sizes in bytes.
 """
@@ -46,7 +46,14 @@ _TRIAD_PASSES = 9
 def timed_set_up(
     thickness: float, width: float, height: float, seed: int, progress: Progress | None
 ) -> tuple[Specimen, dict[str, float | int]]:
-    """Make a rectangle and its flexible model, and take the times and the memory of it.
+    """Make a rectangle and its flexible model, and measure times and memory.
+
+    Args:
+        thickness: Thickness of the specimen [m].
+        width: Width of the specimen [m].
+        height: Height of the specimen [m].
+        seed: Seed of the packing.
+        progress: Called with (steps done, steps expected, text).
 
     Returns:
         The specimen, and: grains, contacts, specimen_time (packing and cells), model_time (meshes,
@@ -84,12 +91,12 @@ def timed_set_up(
 
 
 def bytes_per_step(counts: Mapping[str, int]) -> int:
-    """Memory traffic of a step, refined mesh and three points [B]."""
+    """Return the memory traffic of a step with the refined mesh and three points [B]."""
     return sum(size * counts[name] for name, size in _TRAFFIC.items())
 
 
 def triad() -> float:
-    """Memory bandwidth of one thread, median of some passes of a = b + s c [B/s]."""
+    """Return the memory bandwidth of a thread [B/s]: median of several passes of a = b + s c."""
     a, b, c = (np.full(_TRIAD_LENGTH, value) for value in (0.0, 1.0, 2.0))
     times = []
     for _ in range(_TRIAD_PASSES):
@@ -101,12 +108,12 @@ def triad() -> float:
 
 
 def resident() -> int:
-    """Memory of the process that is in use now [B]."""
+    """Return the memory that the process uses now [B]."""
     pages = int(Path("/proc/self/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE")
 
 
 def give_back() -> None:
-    """Return freed memory to the system, so that what is taken next is counted."""
+    """Return freed memory to the system, so that later measurements count new memory."""
     gc.collect()
     give_back_memory()

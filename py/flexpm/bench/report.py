@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Times of steps as a table and as plain data. Times in seconds.
 
-A ratio of two models is the median over the turns of the ratios within one turn.
+A ratio of two models is the median, over the rounds, of the ratio within a round.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ PAPER_RATIOS = (("refined", "rigid", 8.15, 4.79), ("inner", "refined", 3.03, 1.2
 
 @dataclass
 class Case:
-    """One model in a scene of its own."""
+    """A model in its scene, with its times."""
 
     name: str
     label: str
@@ -46,7 +46,7 @@ class Case:
 
 @dataclass
 class Timing:
-    """Outcome of one comparison."""
+    """Result of a comparison."""
 
     machine: dict[str, str | int]
     specimen: dict[str, float | int | None]
@@ -55,7 +55,7 @@ class Timing:
     cases: list[Case]
 
     def ratio(self, name: str, reference: str = REFERENCE) -> float:
-        """Median over the turns of a model's time over that of `reference` [-]."""
+        """Return the median of the round-wise ratios of a model's time to `reference` [-]."""
         times = {case.name: case.times for case in self.cases}
         return median(a / b for a, b in zip(times[name], times[reference], strict=True))
 
@@ -64,7 +64,7 @@ class Timing:
         return {f"ratio_to_{REFERENCE}": self.ratio(name)} if known else {}
 
     def as_dict(self) -> Table:
-        """All of it as plain data, ratios and spreads included."""
+        """Return the result as plain data, with ratios and spreads."""
         cases = {}
         for case in self.cases:
             low, _, high = quantiles(case.times, n=4) if len(case.times) > 1 else case.times * 3
@@ -87,7 +87,7 @@ class Timing:
 
 
 def machine() -> dict[str, str | int]:
-    """The machine and the versions that a time belongs to."""
+    """Return the machine and the versions of a measurement."""
     names = [
         line.partition(":")[2].strip()
         for line in Path("/proc/cpuinfo").read_text().splitlines()
@@ -104,7 +104,7 @@ def machine() -> dict[str, str | int]:
 
 
 def host_rows(timing: Timing) -> list[tuple[str, str]]:
-    """Describe where and of what a comparison was, as rows (name, value)."""
+    """Describe machine and specimen of a comparison as rows (name, value)."""
     host, counts = timing.machine, timing.cases[0].counts
     rows = [
         ("processor", f"{host['processor']}, {host['cores']} cores, {timing.threads} used"),
@@ -155,7 +155,7 @@ def _paper_rows(timing: Timing, test: str) -> list[tuple[str, str]]:
 
 
 def threads_rows(found: dict[str, float | int]) -> list[tuple[str, str]]:
-    """Describe two threads against one as rows (name, value)."""
+    """Describe the comparison of two threads with a single thread as rows (name, value)."""
     word = "" if found["load"] < _FREE else f"; the cores were not free (load {found['load']:.1f})"
     return [("two threads", f"{found['gain']:.2f} times as fast as one{word}")]
 
@@ -174,7 +174,7 @@ def size_rows(found: dict[str, float | int]) -> list[tuple[str, str]]:
 
 
 def scaling_rows(found: list[dict[str, float | int]]) -> list[tuple[str, str]]:
-    """Describe growth as rows (name, value)."""
+    """Describe the times for growing specimens as rows (name, value)."""
     base = found[0]["time_per_grain"]
     rows = []
     for row in found:
@@ -194,7 +194,7 @@ def scaling_rows(found: list[dict[str, float | int]]) -> list[tuple[str, str]]:
 
 
 def scaling_picture(path: Path, found: list[dict[str, float | int]]) -> None:
-    """Draw the time per grain and step over the number of grains."""
+    """Plot the time per grain and step over the number of grains."""
     with drawing(path) as axes:
         times = [1e9 * row["time_per_grain"] for row in found]
         axes.plot([row["grains"] for row in found], times, "o-", color="black")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Step times of the models of a solid on one packing, in turns, and what its set-up takes.
+"""Step times of the 3D models on one packing, in alternating rounds, and costs of the set-up.
 
 Times in seconds, sizes in bytes.
 """
@@ -31,13 +31,17 @@ _PEAK_UNIT = 1024
 
 
 def timed_set_up(spec: SolidSpec, progress: Progress | None) -> tuple[SolidSpecimen, Table]:
-    """Make a solid and its flexible model, and take the times and the memory of it.
+    """Make a 3D specimen and its flexible model, and measure times and memory.
+
+    Args:
+        spec: Spec of the specimen.
+        progress: Called with (steps done, steps expected, text).
 
     Returns:
         The specimen, and: grains, contacts, packing_time, cells_time (cells, edges collapsed),
         model_time (tetrahedra, rules of points, arrays, masses), start_time (elastic state and
         ends), first_step_time, memory_per_grain (growth of the resident set from before the model
-        to after the step) and peak_memory of the process so far.
+        to after the step) and peak_memory of the process until this step.
     """
     times: dict[str, float] = {}
     spheres = _timed(
@@ -109,7 +113,7 @@ def scaling_rows(found: Sequence[Mapping[str, float]]) -> list[tuple[str, str]]:
 
 
 def _costs(timing: Timing, case: Case) -> str:
-    """A step, a grain of it, a bond of it, and the share of the reference's time."""
+    """Return the time of a step, per grain and per bond, and its ratio to the reference."""
     step = case.step_time
     parts = [scaled(step, 1e6, "us")]
     for name, unit in (("grains", "grain"), ("contacts", "bond")):

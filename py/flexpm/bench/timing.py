@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Wall time of a step of each model on one packing, paired in one run. Times in seconds.
+"""Wall time of a step of each model on one packing, paired in a run. Times in seconds.
 
-Each model has a scene of its own and does what a uniaxial test does in every step: flexpm's models
-with platens, measures and record, YADE's with collider, contact loop and integrator only. They
-take turns, so that a change of the machine's speed meets all of them.
+Each model has its own scene and does in every step the work of a uniaxial test: flexpm's models
+with platens, measurements and record, YADE's models with collider, contact loop and integrator
+only. The models alternate in rounds, so that a change of the machine's speed affects all models.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ SIDES, LARGE_SIDE = (1.0, 1.92), 3.8
 
 @dataclass(frozen=True)
 class Plan:
-    """What is timed.
+    """Selection of specimens, models and steps for a measurement.
 
     Attributes:
         steps: Steps of each model; multiples of 1000 weigh measured steps evenly.
@@ -65,9 +65,9 @@ class Plan:
         height: Height of the specimen [m].
         seed: Seed of the packing.
         threads: Threads of a step.
-        scaling: Time the flexible model also with 10 and 40 times the grains, a box with 7 times.
+        scaling: Also time the flexible model with 10 and 40 times the grains, in 3D with 7 times.
         large: With `scaling` of a box also with 55 times the grains.
-        shape: ``box`` for the models of a solid; None: those of the plane.
+        shape: ``box`` for the 3D models; None: the 2D models.
         depth: Depth of a box [m]; None: its default.
     """
 
@@ -93,11 +93,12 @@ class Plan:
 def run(
     plan: Plan, json_file: Path | str | None = None, progress: Progress | None = None
 ) -> list[tuple[str, str]]:
-    """Time all models and describe the outcome.
+    """Time all models and describe the results.
 
     Args:
-        plan: What is timed.
-        json_file: Also written there; a picture of the scaling beside it.
+        plan: Specimens, models and steps.
+        json_file: File for the results as JSON, with a plot of the scaling next to it; None: no
+            file.
         progress: Called with (steps done, steps expected, text).
 
     Returns:
@@ -159,11 +160,19 @@ def compare_threads(
     builders: Mapping[str, tuple[str, Builder]] = BUILDERS,
     name: str = "refined",
 ) -> dict[str, float | int]:
-    """Time the flexible model on one thread and on two, in turns, in wall time.
+    """Measure the wall time of the flexible model alternately with one thread and with two threads.
+
+    Args:
+        specimen: The grains.
+        steps: Steps for each number of threads.
+        progress: Called with (rounds done, rounds, text).
+        builders: Label and builder of each model by its name.
+        name: Name of the model.
 
     Returns:
-        Step times [s], the median over the turns of one over two, and the load of the machine
-        before: the number of processes that wait for a core.
+        Step times [s], the median over the rounds of the ratio of the time with one thread to the
+        time with two threads, and the load of the machine before: the number of processes that wait
+        for a core.
     """
     load = os.getloadavg()[0]
     times: dict[int, list[float]] = {1: [], 2: []}
@@ -194,15 +203,18 @@ def compare(
     builders: Mapping[str, tuple[str, Builder]] = BUILDERS,
     progress: Progress | None = None,
 ) -> Timing:
-    """Time the models on one specimen in turns; the scenes are removed afterwards.
+    """Time the models on a specimen in alternating rounds; the scenes are removed afterwards.
 
     Args:
-        specimen: A rectangle or a disc, or a solid.
+        specimen: A rectangle, a disc or a 3D specimen.
         steps: Steps of each model.
         threads: Threads of a step.
-        names: Models to time; None for all.
+        names: Models to time; None: all models.
         builders: Label and builder of each model by its name.
         progress: Called with (steps done, steps expected, text).
+
+    Returns:
+        The times.
     """
     chunk = math.ceil(steps / TURNS)
     turns = math.ceil(steps / chunk)
@@ -230,7 +242,7 @@ def compare(
 
 
 def grow(plan: Plan, progress: Progress | None) -> list[dict[str, float | int]]:
-    """Time the flexible model on specimens with more and more grains."""
+    """Time the flexible model on specimens with an increasing number of grains."""
     found = []
     for scale in SCALES:
         side = math.sqrt(scale)
@@ -250,7 +262,7 @@ def grow(plan: Plan, progress: Progress | None) -> list[dict[str, float | int]]:
 
 
 def _grow_solid(plan: Plan, spec: SolidSpec, progress: Progress | None) -> list[Table]:
-    """Time the flexible model on larger and larger boxes."""
+    """Time the flexible model on boxes of increasing size."""
     found = []
     for side in (*SIDES, LARGE_SIDE) if plan.large else SIDES:
         sizes: Table = {name: side * size for name, size in spec.sizes.items()}
@@ -282,7 +294,7 @@ def _case(name: str, label: str, build: Builder, specimen: AnySpecimen, threads:
 
 
 def _take_turn(case: Case, steps: int) -> None:
-    """Do and time the next steps of a model."""
+    """Run and time the next steps of a model."""
     omega = yade.O
     omega.switchToScene(case.scene)
     wall, own = time.perf_counter(), time.thread_time()
