@@ -11,6 +11,8 @@ namespace {
 /// Contacts so many times as stiff as grains open little: rigid motions would save fewer iterations
 /// than they cost.
 constexpr double stiff_contacts = 4.0;
+/// In larger solids bricks are wider, and rigid motions save more.
+constexpr std::size_t many_grains = 50000;
 
 using Held = std::vector<std::uint8_t>;
 
@@ -220,7 +222,7 @@ std::vector<std::unique_ptr<WideMotions>> wide_motions_of(
     std::vector<std::unique_ptr<WideMotions>> found;
     RigidSolid rigid = as_rigid(solid, held);
     found.push_back(std::make_unique<SmoothNodes>(straining_grid(solid, rigid), held));
-    if (relative_stiffness(rigid) < stiff_contacts)
+    if (relative_stiffness(rigid) < stiff_contacts || rigid.centres.size() > many_grains)
         found.push_back(std::make_unique<RigidMotions>(std::move(rigid), held));
     return found;
 }

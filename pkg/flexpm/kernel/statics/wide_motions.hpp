@@ -3,7 +3,7 @@
 /// strains grains and opens contacts, as it does springs one behind the other: one coarse grid strains
 /// all, another one carries rigid grains, which open contacts. Between the grids and the blocks of
 /// nodes stands each grain as a rigid body, which compliant contacts let move more than nodes know.
-/// Where contacts are stiff, deformable grains have the first grid alone.
+/// Where contacts are stiff and grains not very many, deformable grains have the first grid alone.
 #pragma once
 
 #include <flexpm/kernel/statics/linear_solid.hpp>
