@@ -14,6 +14,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import flexpm
+from flexpm.renamed import ATTRIBUTES
 
 #: Exceptions of Python for an argument of another type, which have several lines.
 FOREIGN = re.compile(r"(ArgumentError|TypeError|OverflowError): ")
