@@ -103,7 +103,10 @@ def test_what_fails_is_a_row_with_one_line(tmp_path, monkeypatch, capsys):
             "no result.json was left in the folder of the run; give out to flexpm.PartRig",
         ),
         "error": (1, "ZeroDivisionError: division by zero"),
-        "flexpm": (2, "strain_to: strain = 'far', must be a number"),
+        "flexpm": (
+            2,
+            "strain_to: strain = 'far', must be a number; write it without quotes and unit",
+        ),
     }
     assert (tmp_path / "beams" / "report.html").is_file()
     errors = capsys.readouterr().err
