@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import signal
 import warnings
+from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -236,6 +237,7 @@ def test_attributes_of_a_result():
     assert old(lambda: result.joint_bend, "joint_deviation") == 1e-4
     assert old(lambda: result.largest_parting, "largest_separation") == 0.1
     assert old(lambda: result.as_dict()["joint_bend"], "joint_deviation") == 1e-4
+    assert old(lambda: result.as_dict()["networks"]["a"]["asked"], "target") == 3.0
     with pytest.warns(FutureWarning, match="now called joint_deviation"):
         result.joint_bend = 2e-4
     assert result.joint_deviation == 2e-4
@@ -251,8 +253,22 @@ def test_specimens_have_their_joint_deviations_and_networks_by_old_names():
     assert old(lambda: cut.joint_bends(), "joint_deviations") == cut.joint_deviations()
     one = renamed.Renamed({"target": 1.0}, renamed.NETWORKS)
     assert old(lambda: one["asked"], "target") == 1.0
+    assert old(lambda: one.get("asked"), "target") == 1.0
+    assert one.get("drawn", 2.0) == 2.0
     with pytest.raises(KeyError):
         one["drawn"]
+
+
+def test_a_model_has_its_joint_deviation_by_the_old_name():
+    model = fresh(SQUARE, None, "rigid")
+    assert old(lambda: model.joint_bend, "joint_deviation") is None
+
+
+def test_a_result_with_networks_is_a_plain_table_of_a_dataclass():
+    result = sample()
+    assert result.networks is not None
+    result.networks["a"] = renamed.Renamed(result.networks["a"], renamed.NETWORKS)
+    assert asdict(result)["networks"] == {"a": {"target": 3.0, "generated": 2.0, "cut": 1.0}}
 
 
 def test_a_picture_of_a_study_takes_the_old_column():

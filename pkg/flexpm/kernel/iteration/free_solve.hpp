@@ -47,8 +47,8 @@ struct FreeSolution {
     double residual = 0.0;  ///< relative to the load [-]
 };
 
-/// Solve K u = load for all unknowns but the held ones, which stay 0. Motions that no force
-/// opposes keep what the guess has of them.
+/// Solve K u = load for all unknowns but the held ones, which stay 0. Motions that no force opposes
+/// are not determined: they are those of the guess plus what the preconditioner adds.
 ///
 /// @param held  1 for each unknown that is held
 /// @throws std::runtime_error  if the forces do not come to balance

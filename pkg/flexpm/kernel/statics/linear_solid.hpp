@@ -130,8 +130,8 @@ inline void add_triple(double* u, int node, Vector v)
 
 /// Grains that are rigid: unknowns of each are the way of its centre and its turn times its radius.
 struct RigidSolid : LinearForces {
-    /// What holds a node of a grain apart from contacts and plates, by rows [N/m]. It has a part in
-    /// blocks and wide motions alone.
+    /// Spring of an element between a node and held nodes, by rows [N/m]. Only the preconditioner
+    /// uses it.
     struct Hold {
         int node;
         SpaceGradient k;

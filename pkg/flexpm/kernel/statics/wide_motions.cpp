@@ -24,7 +24,7 @@ void add_free(double* u, const Held& held, int triple, Vector v)
         if (!held[3 * triple + axis]) u[3 * triple + axis] += along[axis];
 }
 
-/// What elements resist by as their nodes move against held ones.
+/// Springs of elements at their held nodes.
 std::vector<RigidSolid::Hold> holds_of(const LinearSolid& solid, const Held& held)
 {
     std::vector<RigidSolid::Hold> holds;
