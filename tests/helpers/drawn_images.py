@@ -15,7 +15,6 @@ from __future__ import annotations
 import csv
 import os
 import sys
-import time
 from pathlib import Path
 from typing import NamedTuple
 
@@ -46,7 +45,6 @@ class Figures(NamedTuple):
     away: float  #: farthest corner of a boundary from that of the pixels
     missing: int  #: pairs that share three edges of pixels or more and do not meet
     added: int  #: pairs that meet and share no edge of pixels
-    seconds: float
 
 
 #: What each may be at most; those of counts are exact.
@@ -140,9 +138,7 @@ def away_from(points, edges):
 
 def figures_of(labels, **options):
     """Measure what becomes of an image."""
-    start = time.process_time()
     specimen = Specimen.from_labels(labels, PIXEL, THICKNESS, **options)
-    seconds = time.process_time() - start
     found, stairs = (divide(labels, PIXEL, **options, smoothed=one) for one in (True, False))
     cells, grains = specimen.tessellation, specimen.grains
     assert len(cells.cell_areas) >= len(found.polygons)
@@ -167,7 +163,6 @@ def figures_of(labels, **options):
         # each edge of a pixel is there from both sides
         len(neighbours(stairs.grains, pairs, 6) - met),
         len(met - neighbours(stairs.grains, pairs, 2)),
-        seconds,
     )
 
 

@@ -8,7 +8,6 @@ import socket
 import stat
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -117,9 +116,7 @@ def test_a_file_is_read_no_further_than_the_largest(tmp_path, read, name, monkey
         with name.open("wb") as file:
             file.truncate(files._LARGEST + 1)
     monkeypatch.setattr(files, "_LARGEST_TABLE", files._LARGEST)
-    begin = time.process_time()
-    refusal("it = ", read, Path(name), "it")
-    assert time.process_time() - begin < 2.0
+    refusal("it = ", read, Path(name), "it")  # or it never ends
 
 
 @pytest.mark.parametrize("name", ["/dev/zero", "a\0b", "\ud800"])
@@ -133,9 +130,7 @@ def test_a_file_is_read_no_further_than_the_largest(tmp_path, read, name, monkey
     ids=["history", "spheres", "solid"],
 )
 def test_other_readers_have_the_same_limit(read, name):
-    begin = time.process_time()
     refusal("", read, name)
-    assert time.process_time() - begin < 2.0
 
 
 @pytest.mark.parametrize("text", ['{"x": NaN}', '{"x": -Infinity}', '{"x": 1e999}', "[1]", "{"])

@@ -43,7 +43,7 @@ def told(package_parent, model, threads, available):
         "OMP_NUM_THREADS": str(available),
     }
     command = [sys.executable, "-c", SCRIPT, model, str(threads)]
-    done = captured(command, env=surroundings, timeout=300)
+    done = captured(command, env=surroundings, timeout=600)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout.splitlines()[-1])
 

@@ -24,7 +24,7 @@ def run(
     environment.pop("DISPLAY", None)
     if display is not None:
         environment["DISPLAY"] = display
-    return captured(command, cwd=folder, env=environment, timeout=120)
+    return captured(command, cwd=folder, env=environment, timeout=600)
 
 
 def test_plain_python_prints_nothing(package_parent: Path, tmp_path: Path) -> None:

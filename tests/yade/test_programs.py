@@ -28,7 +28,7 @@ print("peak", repr(result.peak_stress), result.status)
 def run(command: list[str], package_parent: Path, folder: Path) -> subprocess.CompletedProcess[str]:
     environment = dict(os.environ, PYTHONPATH=str(package_parent), OMP_NUM_THREADS="1")
     environment.pop("DISPLAY", None)
-    return captured(command, cwd=folder, env=environment, timeout=240)
+    return captured(command, cwd=folder, env=environment, timeout=600)
 
 
 @pytest.mark.long

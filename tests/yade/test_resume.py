@@ -235,7 +235,7 @@ def test_an_interrupted_command_saves_a_checkpoint(package_parent, tmp_path, num
         assert process.poll() is None, process.stderr.read()
         time.sleep(0.01)
     process.send_signal(number)
-    errors = process.communicate(timeout=60)[1]
+    errors = process.communicate(timeout=600)[1]
     assert (process.returncode, errors.count("\n")) == (code, 1), errors
     left = saved(tmp_path)
     assert left["stage"] == 1

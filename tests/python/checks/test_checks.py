@@ -15,7 +15,7 @@ CHECKS = ROOT / "scripts" / "checks"
 
 def run(check: str, tree: Path) -> tuple[int, str]:
     command = [sys.executable, str(CHECKS / check), str(tree)]
-    done = captured(command, timeout=60)
+    done = captured(command, timeout=600)
     return done.returncode, done.stdout
 
 

@@ -31,7 +31,7 @@ def headers(cache: Path, fakes: Path | None = None) -> subprocess.CompletedProce
     path = os.environ["PATH"] if fakes is None else f"{fakes}:{os.environ['PATH']}"
     command = [str(ROOT / "scripts/yade-headers"), str(cache)]
     environment = dict(os.environ, PATH=path)
-    return captured(command, env=environment, timeout=60)
+    return captured(command, env=environment, timeout=600)
 
 
 def unreachable_mirror(folder: Path) -> Path:
@@ -85,7 +85,7 @@ esac
 def test_wrong_source_folder_is_refused(tmp_path: Path) -> None:
     environment = dict(os.environ, YADE_SOURCE_DIR=str(tmp_path), FLEXPM_BUILD_DIR=str(tmp_path))
     command = [str(ROOT / "scripts/setup")]
-    done = captured(command, env=environment, timeout=60)
+    done = captured(command, env=environment, timeout=600)
     assert done.returncode == 1
     assert f"YADE_SOURCE_DIR = {tmp_path}" in done.stderr.splitlines()[-1]
 
@@ -96,7 +96,7 @@ def test_wrong_source_folder_is_refused(tmp_path: Path) -> None:
     + [f"checks/{name}" for name in ("sanitize", "compilers", "format", "types")],
 )
 def test_a_script_that_is_asked_for_help_does_nothing_else(script: str, tmp_path: Path) -> None:
-    done = captured([ROOT / "scripts" / script, "--help"], cwd=tmp_path, timeout=60)
+    done = captured([ROOT / "scripts" / script, "--help"], cwd=tmp_path, timeout=600)
     assert (done.returncode, done.stderr, list(tmp_path.iterdir())) == (0, "", [])
     text = (ROOT / "scripts" / script).read_text()
     assert len(done.stdout.splitlines()) >= 3
@@ -142,7 +142,7 @@ def test_a_package_is_not_compiled_without_its_optimiser(tmp_path: Path) -> None
         "PIP_RETRIES": "0",
         "PIP_NO_CACHE_DIR": "1",
     }
-    done = captured([str(ROOT / "scripts/setup")], env=surroundings, timeout=120)
+    done = captured([str(ROOT / "scripts/setup")], env=surroundings, timeout=600)
     assert done.returncode == 1
     assert "setup: optimiser = DFO-LS" in done.stderr.splitlines()[-1]
     assert not (tmp_path / "build" / "CMakeCache.txt").exists()

@@ -57,7 +57,7 @@ def started(*arguments, **options):
 
 def finished(*arguments, **options):
     process = started(*arguments, **options)
-    output, errors = process.communicate(timeout=300)
+    output, errors = process.communicate(timeout=600)
     return process.returncode, output, errors
 
 
@@ -234,7 +234,7 @@ def test_signals_end_the_command_with_one_line(tmp_path, number, code):
     time.sleep(4.0)
     assert process.poll() is None
     process.send_signal(number)
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate(timeout=600)
     assert (process.returncode, output) == (code, "")
     assert errors.startswith("flexpm: ")
     assert errors.count("\n") == 1

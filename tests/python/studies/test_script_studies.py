@@ -144,7 +144,7 @@ def test_a_function_is_run_by_processes(tmp_path):
         ["/usr/bin/python3", "own.py"],
         cwd=tmp_path,
         env=os.environ | {"PYTHONPATH": PACKAGES},
-        timeout=200,
+        timeout=600,
     )
     assert (done.returncode, done.stdout.strip()) == (0, "2"), done.stderr
     assert {row["exit_code"] for row in rows_of(tmp_path / "many")} == {0}
@@ -154,7 +154,7 @@ def test_a_function_is_run_by_processes(tmp_path):
         ["/usr/bin/python3", "own.py"],
         cwd=tmp_path,
         env=os.environ | {"PYTHONPATH": PACKAGES, scripts._WITHIN: "1"},
-        timeout=200,
+        timeout=600,
     )
     assert "put the call below if __name__" in again.stderr.splitlines()[-1]
 
