@@ -13,6 +13,7 @@ namespace {
 /// Nodes in a row between springs that resist along all axes alike.
 struct Chain : LinearForces {
     std::vector<double> springs;  ///< from each node to the next [N/m]
+    bool moves = false;           ///< motions of the whole are looked for
 
     explicit Chain(std::vector<double> of) : springs(std::move(of)) { }
     int nodes() const { return static_cast<int>(springs.size()) + 1; }
@@ -39,6 +40,7 @@ struct Chain : LinearForces {
         }
         return blocks;
     }
+    RigidPart rigid_part(int) const override { return { moves ? 1.0 : 0.0, 0.0, {} }; }
 };
 
 }  // namespace
@@ -61,6 +63,29 @@ TEST_CASE("Parts that hang together with nothing held keep the motion of the gue
     for (int k = 0; k < 5; ++k) {
         CHECK(found.u[3 * k] == Approx(expected[k]).margin(1e-9));
         CHECK(found.u[3 * k + 1] == Approx(0.0).margin(1e-9));
+    }
+}
+
+TEST_CASE("A motion of the whole that no force opposes keeps that of the guess", "[elastic]")
+{
+    Chain chain({ 2.0, 3.0, 5.0 });
+    chain.moves = true;
+    std::vector<std::uint8_t> held(12, 0);
+    for (int k = 0; k < 4; ++k)
+        held[3 * k + 2] = 1;  // there is a motion along x and one along y
+    held[1] = 1;              // none along y
+    std::vector<double> load(12, 0.0), guess(12, 0.0);
+    load[0] = -6.0;
+    load[9] = 6.0;
+    load[10] = 15.0;
+    for (int k = 0; k < 4; ++k)
+        guess[3 * k] = k == 0 ? 4.0 : 8.0;
+    const FreeSolution found = solve_free(chain, held, load, guess);
+    const double along_x[] = { -3.0, 0.0, 2.0, 3.2 }, along_y[] = { 0.0, 7.5, 12.5, 15.5 };
+    for (int k = 0; k < 4; ++k) {
+        CHECK(found.u[3 * k] == Approx(along_x[k] - 0.55 + 7.0));
+        CHECK(found.u[3 * k + 1] == Approx(along_y[k]).margin(1e-9));
+        CHECK(found.u[3 * k + 2] == 0.0);
     }
 }
 

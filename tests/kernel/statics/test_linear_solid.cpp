@@ -102,3 +102,66 @@ TEST_CASE("Contacts that are much stiffer than grains cost few iterations", "[so
     // 1920 and 297 with each node in a block of its own, 163 and 166 so
     CHECK(iterations(100.0) < 1.5 * iterations(1.0));
 }
+
+namespace {
+
+/// The same forces with other levels of the preconditioner: none.
+struct Plain : LinearForces {
+    const LinearForces& of;
+
+    explicit Plain(const LinearForces& forces) : of(forces) { }
+    void add(const double* u, double* forces) const override { of.add(u, forces); }
+    DiagonalBlocks diagonal_blocks() const override { return of.diagonal_blocks(); }
+    RigidPart rigid_part(int triple) const override { return of.rigid_part(triple); }
+};
+
+/// Mean displacement and mean rotation about z of all triples with a place.
+void check_rest(const LinearForces& forces, const std::vector<double>& u)
+{
+    double along_x = 0.0, along_y = 0.0, about = 0.0, size = 0.0;
+    for (std::size_t i = 0; i < u.size(); i += 3) {
+        const RigidPart part = forces.rigid_part(static_cast<int>(i / 3));
+        along_x += part.way * u[i];
+        along_y += part.way * u[i + 1];
+        about += part.arm.x * u[i + 1] - part.arm.y * u[i] + part.turn * u[i + 2];
+        size += std::abs(u[i]) + std::abs(u[i + 1]);
+    }
+    CHECK(std::abs(along_x) < 1e-9 * size);
+    CHECK(std::abs(along_y) < 1e-9 * size);
+    CHECK(std::abs(about) < 1e-11 * size);  // arms of 1 cm
+}
+
+}  // namespace
+
+TEST_CASE("Smooth platens leave sideways motions, which stay 0", "[solids]")
+{
+    const Packing p = packing(60, 6);
+    for (const bool rigid : { false, true }) {
+        SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners, rigid));
+        scale_masses(s, 0.7);
+        hold_ends(s, { false, true });
+        const LinearSolid solid = linear_solid(s);
+        const RigidSolid grains = rigid ? rigid_solid(s, solid) : RigidSolid(solid);
+        const LinearForces& forces = rigid ? static_cast<const LinearForces&>(grains) : solid;
+        std::vector<double> pushed(3 * solid.places.size(), 0.0);
+        for (const LinearSolid::Press& press : solid.presses)
+            add_triple(pushed.data(), press.nodes[0], press.stiffness * 1e-6 * press.normal);
+        std::vector<double> load = pushed;
+        if (rigid) {
+            load.assign(6 * grains.centres.size(), 0.0);
+            grains.gather(pushed.data(), load.data());
+        }
+        const std::vector<std::uint8_t> held(load.size(), 0);
+        const std::vector<double> guess(load.size(), 0.0);
+        const FreeSolution found = solve_free(forces, held, load, guess);
+        const FreeSolution other = solve_free(Plain(forces), held, load, guess);
+        CHECK(found.iterations < other.iterations);
+        check_rest(forces, found.u);
+        double largest = 0.0, apart = 0.0;
+        for (std::size_t i = 0; i < found.u.size(); ++i) {
+            largest = std::max(largest, std::abs(found.u[i]));
+            apart = std::max(apart, std::abs(found.u[i] - other.u[i]));
+        }
+        CHECK(apart < 1e-8 * largest);
+    }
+}

@@ -81,6 +81,17 @@ void DiagonalBlocks::append(const SpaceGradient& k)
     add(triple, triple, 1.0, k);
 }
 
+double DiagonalBlocks::mean_diagonal() const
+{
+    double sum = 0.0;
+    for (std::size_t g = 0; g + 1 < first_.size(); ++g) {
+        const int size = 3 * triples(static_cast<int>(g));
+        for (int i = 0; i < size; ++i)
+            sum += values_[start_[g] + i * (size + 1)];
+    }
+    return sum / (3.0 * static_cast<double>(members_.size()));
+}
+
 void DiagonalBlocks::invert(const std::vector<std::uint8_t>& held)
 {
     for (std::size_t g = 0; g + 1 < first_.size(); ++g) {

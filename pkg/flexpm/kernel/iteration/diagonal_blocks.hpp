@@ -22,6 +22,9 @@ public:
     /// Add a triple, which is a group of its own, with its block.
     void append(const SpaceGradient& k);
 
+    /// Mean of the stiffness of an unknown against all others at rest.
+    double mean_diagonal() const;
+
     /// Put inverses in the places of the blocks. A held unknown stays 0; a block that resists no
     /// motion in some way, as of a grain that one point holds, gets a little stiffness there.
     ///

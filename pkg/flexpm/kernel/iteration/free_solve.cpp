@@ -2,6 +2,7 @@
 #include <flexpm/kernel/iteration/free_solve.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/iteration/free_motions.hpp>
 
 #include <Eigen/Dense>
 #include <Eigen/IterativeLinearSolvers>
@@ -96,6 +97,7 @@ public:
     template <class Matrix> LevelsPreconditioner& compute(const Matrix& matrix)
     {
         blocks_ = matrix.on().forces.diagonal_blocks();
+        stiffness_ = blocks_.mean_diagonal();
         blocks_.invert(matrix.on().held);
         wide_ = matrix.on().forces.wide_motions(matrix.on().held);
         return *this;
@@ -111,8 +113,10 @@ public:
         return result;
     }
     Eigen::ComputationInfo info() const { return Eigen::Success; }
+    double stiffness() const { return stiffness_; }
 
 private:
+    double stiffness_ = 0.0;  ///< mean of the diagonal [N/m]
     DiagonalBlocks blocks_ { {} };
     std::vector<std::unique_ptr<WideMotions>> wide_;
 };
@@ -138,11 +142,17 @@ FreeSolution solve_free(const LinearForces& forces, const std::vector<std::uint8
     solver.setTolerance(balanced);
     solver.setMaxIterations(most_iterations);
     solver.compute(matrix);
-    const Numbers found = solver.solveWithGuess(right, numbers(guess));
+    Numbers found = solver.solveWithGuess(right, numbers(guess));
     if (solver.info() != Eigen::Success) {
         fail("elastic solution: residual", number(solver.error()),
             "must be below " + number(balanced) + " after " + std::to_string(most_iterations)
                 + " iterations; check the stiffness of contacts against that of grains");
+    }
+    const FreeMotions free(forces, held, solver.preconditioner().stiffness());
+    if (free.count() > 0) {
+        found -= numbers(guess);
+        free.remove(found.data());
+        found += numbers(guess);
     }
     return { { found.data(), found.data() + found.size() }, static_cast<int>(solver.iterations()),
         solver.error() };

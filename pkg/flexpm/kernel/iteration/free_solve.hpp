@@ -20,6 +20,13 @@ public:
     virtual void add(const double* forces, double* u) const = 0;
 };
 
+/// How three unknowns move when the whole structure moves as a rigid body: by the translation times
+/// `way`, by the rotation times `turn` and by what the rotation gives at `arm`.
+struct RigidPart {
+    double way = 0.0, turn = 0.0;
+    Vector arm;  ///< from the origin
+};
+
 /// Linear forces of a structure whose unknowns come in threes.
 class LinearForces {
 public:
@@ -39,6 +46,9 @@ public:
     {
         return {};
     }
+
+    /// Part of a triple in a rigid motion of the whole; none: these motions are not looked for.
+    virtual RigidPart rigid_part(int /*triple*/) const { return {}; }
 };
 
 struct FreeSolution {
@@ -47,8 +57,8 @@ struct FreeSolution {
     double residual = 0.0;  ///< relative to the load [-]
 };
 
-/// Solve K u = load for all unknowns but the held ones, which stay 0. Motions that no force opposes
-/// are not determined: they are those of the guess plus what the preconditioner adds.
+/// Solve K u = load for all unknowns but the held ones, which stay 0. Rigid motions of the whole that
+/// no force opposes are those of the guess. Those of a part alone are not determined.
 ///
 /// @param held  1 for each unknown that is held
 /// @throws std::runtime_error  if the forces do not come to balance

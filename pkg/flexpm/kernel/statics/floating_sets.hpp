@@ -30,6 +30,11 @@ public:
     {
         return structure_.wide_motions(held);  // the groups' translations are blocks alone
     }
+    RigidPart rigid_part(int triple) const override
+    {
+        if (static_cast<std::size_t>(triple) < unknowns_ / 3) return structure_.rigid_part(triple);
+        return { 1.0, 0.0, {} };
+    }
 
 private:
     const LinearForces& structure_;

@@ -63,6 +63,7 @@ struct LinearSolid : LinearForces {
     /// stay rigid.
     std::vector<std::unique_ptr<WideMotions>> wide_motions(
         const std::vector<std::uint8_t>& held) const override;
+    RigidPart rigid_part(int triple) const override { return { 1.0, 0.0, places[triple] }; }
 
     /// Stiffness of the contacts of plates, by their numbers, against what is free of them.
     std::vector<PlateStiffness> plate_stiffness() const;
@@ -149,6 +150,12 @@ struct RigidSolid : LinearForces {
     /// Smooth motions.
     std::vector<std::unique_ptr<WideMotions>> wide_motions(
         const std::vector<std::uint8_t>& held) const override;
+    RigidPart rigid_part(int triple) const override
+    {
+        const int g = triple / 2;
+        if (triple % 2 == 1) return { 0.0, radii[g], {} };
+        return { 1.0, 0.0, centres[g] };
+    }
 
     /// Displacements of the nodes, from the unknowns.
     std::vector<double> on_nodes(const double* u) const;
