@@ -55,10 +55,14 @@ void solid_step(benchmark::State& state)
     count(state, s);
 }
 BENCHMARK(solid_step)
+    ->Args({ 4, 1 })
     ->Args({ 6, 1 })
     ->Args({ 12, 1 })
     ->Args({ 12, 2 })
     ->Args({ 23, 1 })
+    ->Args({ 23, 2 })
+    ->Args({ 46, 1 })
+    ->Args({ 46, 2 })
     ->ArgNames({ "along", "threads" })
     ->UseRealTime();
 
@@ -71,7 +75,7 @@ void solid_rigid_step(benchmark::State& state)
         flexpm::step(s, o);
     count(state, s);
 }
-BENCHMARK(solid_rigid_step)->Arg(12)->Arg(23)->ArgName("along");
+BENCHMARK(solid_rigid_step)->Arg(4)->Arg(12)->Arg(23)->Arg(46)->ArgName("along");
 
 /// Pressed up to where most contacts have a point past its elastic branch.
 void solid_softening(benchmark::State& state)
