@@ -105,7 +105,7 @@ def test_two_layers_part_at_the_strength_of_their_pair(model):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("model", ["jcfpm", pytest.param("cohfrict", marks=pytest.mark.slow)])
 def test_a_pair_that_is_a_thousand_times_as_strong_never_cracks(model, tmp_path):
     specimen = flexpm.Specimen.rectangle(0.012, 0.024, THICKNESS, seed=3)
     factors = {"tensile_strength": 1e3, "cohesion": 1e3}

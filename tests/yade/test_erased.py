@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import csv
+import itertools
 
 import numpy as np
 import pytest
@@ -255,8 +256,17 @@ def test_files_of_a_run_name_erased_bonds_apart_from_cracks(specimen, tmp_path):
 
 @pytest.mark.long
 @pytest.mark.usefixtures("look_each_tenth_step")
-@pytest.mark.parametrize("test", ["uniaxial", "tension", "biaxial", "brazilian"])
-@pytest.mark.parametrize("model", ["flexible", "rigid", "inner"])
+@pytest.mark.parametrize(
+    ("model", "test"),
+    [
+        *itertools.product(["flexible", "rigid"], ["uniaxial", "tension", "biaxial", "brazilian"]),
+        ("inner", "tension"),
+        *(
+            pytest.param("inner", test, marks=pytest.mark.slow)
+            for test in ("uniaxial", "biaxial", "brazilian")
+        ),
+    ],
+)
 def test_a_test_goes_on_without_grains_that_it_loads(specimen, disc, test, model):
     """The particle at the bottom is erased, then the one at the top."""
     erasures = [max, min]

@@ -147,11 +147,11 @@ def kill_and_resume(test: str, model: str, package_parent: Path, folder: Path) -
     [
         *(("flexible", test) for test in TESTS),
         ("rigid", "biaxial"),
-        ("rigid", "brazilian"),
+        pytest.param("rigid", "brazilian", marks=pytest.mark.slow),
         ("inner", "tension"),
         ("jcfpm", "uniaxial"),
-        ("jcfpm", "brazilian"),
-        ("cohfrict", "biaxial"),
+        pytest.param("jcfpm", "brazilian", marks=pytest.mark.slow),
+        pytest.param("cohfrict", "biaxial", marks=pytest.mark.slow),
         ("cohfrict", "tension"),
     ],
 )

@@ -39,14 +39,14 @@ rig.load(flexpm.Loading(rate=RATE, kind="waiting"))
 #: All stages that a solid has, in a folder.
 SOLID = """
 import flexpm
-box = flexpm.Specimen.box(0.012, 0.012, 0.012, seed=1)
+box = flexpm.Specimen.box(0.009, 0.009, 0.009, seed=1)
 
 rig = flexpm.SolidPartRig(flexpm.build(box, model="rigid"), out="out", checkpoint_interval=INTERVAL)
 floor, top = rig.platen(0, friction=0.5), rig.platen(2, friction=0.5, seated=True)
 left, right = rig.platen(3), rig.platen(1)
-pin = rig.hold(ball=((0.006, 0.006, 0.006), 0.002), axes="y")
+pin = rig.hold(ball=((0.0045, 0.0045, 0.0045), 0.002), axes="y")
 rig.press({left: 1e6, right: 1e6, top: 2e6})
-rig.gauge("wide", (0.0, 0.006, 0.006), (0.012, 0.006, 0.006))
+rig.gauge("wide", (0.0, 0.0045, 0.0045), (0.009, 0.0045, 0.0045))
 rig.rotation_of("tilt", top)
 rig.drive(top, (0.0, 0.0, -1.0), against=floor)
 rig.stress_to(350.0)
