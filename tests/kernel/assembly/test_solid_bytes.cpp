@@ -29,7 +29,7 @@ std::size_t bytes_of_plan(const SolidPlan& p)
     static_assert(sizeof(SolidPlan) == 21 * sizeof(std::vector<int>) + 8);
     return bytes_of(p.tile_contacts, p.first_tile, p.tile_moves, p.moves, p.first_parcel,
         p.block_sums, p.sums, p.parcels, p.shown_forces, p.node_loads, p.body_places, p.motions,
-        p.wrenches, p.block_faces, p.faces, p.face_grains, p.first_press, p.presses,
+        p.wrenches, p.faces, p.face_places, p.face_grains, p.first_press, p.presses,
         p.first_pressed, p.pressed, p.pressure_works);
 }
 

@@ -85,8 +85,8 @@ void touch_contacts(flexpm::SolidState& s, int block, Touch& to)
     const flexpm::FaceContacts& c = s.contacts;
     if (s.is_rigid()) {
         to.reads(s.plan.face_grains.data() + 2 * block * lanes, 2 * lanes);
-        to.reads(
-            s.plan.faces.data() + s.plan.block_faces[block], flexpm::RigidFaceRow::points * lanes);
+        to.reads(s.plan.faces.data() + flexpm::SolidPlan::first_face(block),
+            flexpm::RigidFaceRow::count * lanes);
     } else {
         const int nodes = c.block_nodes[block], corners = c.group_in(block).corners;
         to.reads(c.nodes.data() + nodes, 2 * corners * lanes);

@@ -119,15 +119,19 @@ std::vector<Vector> point_places(const FaceContacts& c, int contact)
     return places;
 }
 
-/// Write a contact of rigid grains to its lane of RigidFaceRow.
-void write_rigid_face(const SolidState& s, int contact, double* rows)
+/// Write a vector to a lane of three rows.
+void write_vector(double* rows, int row, Vector v)
+{
+    rows[row * lanes] = v.x;
+    rows[(row + 1) * lanes] = v.y;
+    rows[(row + 2) * lanes] = v.z;
+}
+
+/// Write a contact of rigid grains to its lane of RigidFaceRow and RigidPlaceRow.
+void write_rigid_face(const SolidState& s, int contact, double* rows, double* place_rows)
 {
     const FaceContacts& c = s.contacts;
-    const auto write = [&](int row, Vector v) {
-        rows[row * lanes] = v.x;
-        rows[(row + 1) * lanes] = v.y;
-        rows[(row + 2) * lanes] = v.z;
-    };
+    const auto write = [&](int row, Vector v) { write_vector(rows, row, v); };
     std::vector<Vector> places = point_places(c, contact);
     const double sum = contact_area(c, contact);
     Vector middle;
@@ -141,7 +145,7 @@ void write_rigid_face(const SolidState& s, int contact, double* rows)
         xx_yy_zz = xx_yy_zz + area * Vector { r.x * r.x, r.y * r.y, r.z * r.z };
         yz_xz_xy = yz_xz_xy + area * Vector { r.y * r.z, r.x * r.z, r.x * r.y };
         radius = std::max(radius, norm(r));
-        write(RigidFaceRow::points + 3 * static_cast<int>(p), r);
+        write_vector(place_rows, RigidPlaceRow::points + 3 * static_cast<int>(p), r);
     }
     Vector twice_area;
     const Vector first = place_of(c, contact, 0);
@@ -161,7 +165,7 @@ void write_rigid_face(const SolidState& s, int contact, double* rows)
     write(RigidFaceRow::second + 3, yz_xz_xy);
     rows[RigidFaceRow::radius * lanes] = radius;
     const int end = c.line[c.block_of(contact) * lanes + c.lane_of(contact)];
-    write(RigidFaceRow::line(c.points_of(contact)), place_of(c, contact, end) - first);
+    write_vector(place_rows, RigidPlaceRow::line, place_of(c, contact, end) - first);
 }
 
 /// Faces of rigid grains as a step reads them.
@@ -177,20 +181,16 @@ void find_rigid_faces(SolidState& s)
         plan.body_places.push_back({ grain, s.grains.centre(grain) });
     }
     plan.face_grains.resize(static_cast<std::size_t>(2) * lanes * c.blocks());
-    plan.block_faces.clear();
-    int values = 0;
-    for (int block = 0; block < c.blocks(); ++block) {
-        plan.block_faces.push_back(values);
-        values += RigidFaceRow::count(c.group_in(block).points) * lanes;
-    }
-    plan.faces.assign(values, 0.0);
+    plan.faces.assign(SolidPlan::first_face(c.blocks()), 0.0);
+    plan.face_places.assign(SolidPlan::first_place(c, c.blocks()), 0.0);
     for (int slot = 0; slot < lanes * c.blocks(); ++slot) {
         const int block = slot / lanes, lane = slot % lanes;
-        double* rows = plan.faces.data() + plan.block_faces[block] + lane;
+        double* rows = plan.faces.data() + SolidPlan::first_face(block) + lane;
+        double* place_rows = plan.face_places.data() + SolidPlan::first_place(c, block) + lane;
         // padded lanes follow the first one, but bear nothing
         const bool padded = c.in_slot[slot] < 0;
         const int contact = c.in_slot[padded ? block * lanes : slot];
-        write_rigid_face(s, contact, rows);
+        write_rigid_face(s, contact, rows, place_rows);
         for (int row = RigidFaceRow::sum; padded && row < RigidFaceRow::radius; ++row)
             rows[row * lanes] = 0.0;
         for (int side = 0; side < 2; ++side) {

@@ -333,11 +333,18 @@ struct RigidFaceRow {
         sum = 9,      ///< of the areas of the points; 0 where padded [m^2]
         second = 10,  ///< of areas times xx, yy, zz, yz, xz, xy of places [m^4]
         radius = 16,  ///< largest distance of a point
-        points = 17,  ///< places of the points
+        count = 17
     };
-    /// The line from corner 0, after the points.
-    static int line(int points_of) { return points + 3 * points_of; }
-    static int count(int points_of) { return line(points_of) + 3; }
+};
+
+/// Rows of the same blocks that only points beyond the elastic branch need: vectors in three. Steps
+/// of intact contacts read fewer lines without them.
+struct RigidPlaceRow {
+    enum : int {
+        line = 0,    ///< from corner 0 to the end of the line [m]
+        points = 3,  ///< places of the points [m]
+    };
+    static int count(int points_of) { return points + 3 * points_of; }
 };
 
 /// Where the values of a rigid grain are.
@@ -373,8 +380,8 @@ struct SolidPlan {
     std::vector<BodyPlace> body_places;    ///< of each block of grains
     Array<double> motions;                 ///< [block of grains][RigidMotionRow]
     Array<double> wrenches;                ///< [block of grains][WrenchRow]
-    std::vector<int> block_faces;          ///< offset of each block of contacts in `faces`
     Array<double> faces;                   ///< [block of contacts][RigidFaceRow][lane]
+    Array<double> face_places;             ///< [block of contacts][RigidPlaceRow][lane]
     Array<int> face_grains;                ///< [block of contacts][side][lane]: block of the grain
 
     // contacts of plates on each block of grains, in the order of plates
@@ -387,6 +394,18 @@ struct SolidPlan {
     std::vector<double> pressure_works;  ///< of each triangle since the last forces [J]
 
     int tiles() const { return static_cast<int>(tile_contacts.size()) - 1; }
+
+    /// Rows of a block of contacts in `faces`.
+    static std::size_t first_face(int block)
+    {
+        return static_cast<std::size_t>(block) * RigidFaceRow::count * lanes;
+    }
+    /// The same in `face_places`; the end follows the last block.
+    static std::size_t first_place(const FaceContacts& c, int block)
+    {
+        return static_cast<std::size_t>(block) * RigidPlaceRow::points * lanes
+            + static_cast<std::size_t>(3) * c.block_points[block];
+    }
 };
 
 /// Motions of BondedState have the spin as [grain][x y z] and the angle as the turn, [grain][w x y

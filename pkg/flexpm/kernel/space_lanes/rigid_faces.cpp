@@ -31,12 +31,18 @@ struct RigidFaceLanes {
     FaceGroup group;
     const double* motions;  ///< of grains
     const int* grains;
-    const double* faces;  ///< RigidFaceRow
+    const double* faces;   ///< RigidFaceRow
+    const double* places;  ///< RigidPlaceRow
     const double* areas;
     const double* law;  ///< [row of LawParameters][lane]
     bool dilating;      ///< whether any of these laws dilates
 
     FLEXPM_INLINE const double* row(int number) const { return faces + number * lanes; }
+    FLEXPM_INLINE const double* line() const { return places + RigidPlaceRow::line * lanes; }
+    FLEXPM_INLINE const double* point(int p) const
+    {
+        return places + (RigidPlaceRow::points + 3 * p) * lanes;
+    }
 };
 
 /// Three columns of a tensor in a lane.
@@ -122,7 +128,7 @@ FLEXPM_INLINE void find_normals(const RigidFaceLanes& b, RigidFaceMotion& m)
 FLEXPM_INLINE void find_frames(const RigidFaceLanes& b, RigidFaceMotion& m)
 {
     find_normals(b, m);
-    const double* line = b.row(RigidFaceRow::line(b.group.points));
+    const double* line = b.line();
     alignas(64) double present[vector_rows];
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
@@ -138,7 +144,7 @@ FLEXPM_INLINE void find_frames(const RigidFaceLanes& b, RigidFaceMotion& m)
 
 FLEXPM_INLINE void find_jump(const RigidFaceLanes& b, const RigidFaceMotion& m, int p, double* jump)
 {
-    const double* place = b.row(RigidFaceRow::points + 3 * p);
+    const double* place = b.point(p);
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         store_vector(
@@ -150,7 +156,7 @@ FLEXPM_INLINE void find_jump(const RigidFaceLanes& b, const RigidFaceMotion& m, 
 FLEXPM_INLINE void add_force(
     const RigidFaceLanes& b, int p, const double* force, const double*, RigidFaceMotion& m)
 {
-    const double* place = b.row(RigidFaceRow::points + 3 * p);
+    const double* place = b.point(p);
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const Vector f = load_vector(force, l), at = load_vector(place, l);
@@ -227,7 +233,7 @@ template <bool Intact>
 FLEXPM_INLINE void find_moments(
     const RigidFaceLanes& b, const RigidFaceMotion& m, double* on_a, double* on_b)
 {
-    const double* line = b.row(RigidFaceRow::line(b.group.points));
+    const double* line = b.line();
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const Vector force = load_vector(m.force, l), jump = load_vector(m.jump, l),
@@ -287,11 +293,11 @@ struct RigidFaces {
     static void prefetch(const SolidState& s, int block)
     {
         prefetch_rows(s.plan.face_grains.data() + 2 * block * lanes, 2);
-        const bool held = s.contacts.states[block].empty();
-        prefetch_rows(s.plan.faces.data() + s.plan.block_faces[block],
-            held ? int(RigidFaceRow::points)
-                 : RigidFaceRow::count(s.contacts.group_in(block).points));
-        if (!held) prefetch_states(s.contacts, block);
+        prefetch_rows(s.plan.faces.data() + SolidPlan::first_face(block), RigidFaceRow::count);
+        if (s.contacts.states[block].empty()) return;
+        prefetch_rows(s.plan.face_places.data() + SolidPlan::first_place(s.contacts, block),
+            RigidPlaceRow::count(s.contacts.group_in(block).points));
+        prefetch_states(s.contacts, block);
     }
 
     static RigidFaceLanes lanes_of(const SolidState& s, int block, const FaceLaws& laws)
@@ -299,8 +305,9 @@ struct RigidFaces {
         const FaceContacts& c = s.contacts;
         return { c.group_in(block), s.plan.motions.data(),
             s.plan.face_grains.data() + 2 * block * lanes,
-            s.plan.faces.data() + s.plan.block_faces[block], c.areas.data() + c.block_points[block],
-            laws.rows, laws.dilating };
+            s.plan.faces.data() + SolidPlan::first_face(block),
+            s.plan.face_places.data() + SolidPlan::first_place(c, block),
+            c.areas.data() + c.block_points[block], laws.rows, laws.dilating };
     }
 
     static FaceForces forces_of(SolidState& s, int block)
