@@ -110,7 +110,7 @@ def host_rows(timing: Timing) -> list[tuple[str, str]]:
         ("processor", f"{host['processor']}, {host['cores']} cores, {timing.threads} used"),
         ("versions", _versions(host)),
         ("grains, contacts", f"{counts['grains']}, {counts['contacts']}"),
-        ("steps of each model", f"{timing.steps} in {len(timing.cases[0].times)} turns"),
+        ("steps of each model", f"{timing.steps} in {len(timing.cases[0].times)} repetitions"),
     ]
     if timing.threads == 1:
         share = median(

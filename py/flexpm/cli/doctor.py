@@ -77,8 +77,8 @@ def _packages() -> Iterator[Check]:
 
 def _libraries_of_pages() -> Iterator[Check]:
     for name, files, purpose in (
-        ("libjs-chart.js", (CHARTS,), "curves in pages of results"),
-        ("libjs-three", TURNING, "solids that turn in pages of results"),
+        ("libjs-chart.js", (CHARTS,), "curves in HTML reports"),
+        ("libjs-three", TURNING, "rotatable 3D specimens in HTML reports"),
     ):
         if all(file.is_file() for file in files):
             yield name, True, f"{files[0]} ({purpose})"

@@ -280,12 +280,12 @@ many_runs_options = combined(
     click.option(
         "--scheduler",
         metavar="ADDRESS",
-        help="Give the runs to this running Dask scheduler.",
+        help="Send the runs to this running Dask scheduler.",
     ),
     click.option(
         "--cluster",
         metavar="KIND",
-        help="Ask this batch system for workers: slurm, pbs, oar, ... (needs dask-jobqueue).",
+        help="Start workers by this batch system: slurm, pbs, oar, ... (needs dask-jobqueue).",
     ),
     report_option,
     quiet_option,

@@ -233,7 +233,7 @@ def _simulate(
         number = len(frames.read(folder))
         terminal.say(f"  frames                  {number} in {folder / frames.COLLECTION}")
     if result.resumed_at is not None:
-        again = "was complete" if result.resumed_at >= result.steps else "was taken up"
+        again = "was complete" if result.resumed_at >= result.steps else "was resumed"
         terminal.say(f"  an earlier run there {again} at step {result.resumed_at}")
     if result.failed:
         raise SimulationError(

@@ -34,7 +34,7 @@ def require_span(span: float, height: float, notch: float) -> None:
         raise InputError(
             f"run: span = {span:g} m, must be >= {LEAST_SPAN * height:g} m for a notched beam of "
             f"height {height:g} m: {LEAST_SPAN:g} times the height; the formula of the toughness "
-            "holds from there on"
+            "is not valid below"
         )
 
 
@@ -56,7 +56,7 @@ def require_half_disc(span: float, radius: float, notch: float) -> None:
         if not _is_within(value / size, (low, high)):
             raise InputError(
                 f"run: {name} = {value:g} m, must be {low * size:g} to {high * size:g} m: {low:g} "
-                f"to {high:g} {whole} of the disc; the formula of the toughness holds there"
+                f"to {high:g} {whole} of the disc; the formula of the toughness is valid there"
             )
 
 

@@ -36,7 +36,7 @@ _FIGURES = {
     "fan_triangles": ("triangles, fan", 1.0, ""),
     "refined_smallest_angle": ("smallest angle, refined mesh", 1.0, "degrees"),
     "fan_smallest_angle": ("smallest angle, fan", 1.0, "degrees"),
-    "flipped_meshes": ("refined meshes with an edge turned for a better angle", 1.0, ""),
+    "flipped_meshes": ("refined meshes with an edge flipped for a better angle", 1.0, ""),
     "fan_fallbacks": ("grains with a fan in place of a refined mesh", 1.0, ""),
     "moved_centres": ("grains with a centre node moved off the disc's or sphere's centre", 1.0, ""),
     "removed_discs": ("discs removed, hidden by others", 1.0, ""),
@@ -44,11 +44,15 @@ _FIGURES = {
     "boundary_faces": ("faces on the outline", 1.0, ""),
     "contact_corners": ("corners of all contacts", 1.0, ""),
     "contact_points": ("points of all contacts", 1.0, ""),
-    "contacts_of_equal_points": ("contacts with equal points instead", 1.0, ""),
+    "contacts_of_equal_points": (
+        "contacts with equal points instead of the points of the rule",
+        1.0,
+        "",
+    ),
     "cell_volume": ("volume of all grains", 1e9, "mm3"),
     "smallest_cell_volume": ("volume of the smallest grain", 1e9, "mm3"),
     "smallest_tetrahedron_volume": ("volume of the smallest tetrahedron", 1e9, "mm3"),
-    "short_edges_left": ("short edges that had to stay", 1.0, ""),
+    "short_edges_left": ("short edges that could not be removed", 1.0, ""),
     "removed_spheres": ("spheres removed, hidden by others", 1.0, ""),
 }
 

@@ -184,7 +184,7 @@ def _require_grid(cells: Arrays, places: FloatArray, corners: IntArray, count: i
     if not (_are_numbers(cells["grain"][:count], count) and _are_numbers(pairs, grains)):
         raise ValueError("grains")
     if not (_are_numbers(cells["mineral"][:count], count) and np.ptp(places, axis=0).all()):
-        raise ValueError("minerals or places")
+        raise ValueError("minerals or positions")
     if _points_of(cells) not in _SHARES:
         raise ValueError("points")
 

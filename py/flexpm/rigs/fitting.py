@@ -72,10 +72,13 @@ def rig(
         5.2 MPa at a strain of 2.1e-04
     """
     if built.specimen.kind not in _HELD:
-        other = "no rig holds" if is_solid(built.specimen.kind) else "flexpm.PartRig holds"
+        other = (
+            "choose one of them"
+            if is_solid(built.specimen.kind)
+            else "use flexpm.PartRig for other shapes"
+        )
         raise InputError(
-            f"rig: specimen = {built.specimen.kind}, must be one of {', '.join(_HELD)}; use "
-            f"{other} for other shapes"
+            f"rig: specimen = {built.specimen.kind}, must be one of {', '.join(_HELD)}; {other}"
         )
     kept = KeptTest.of(built, "rig", leaves, pull=tension)
     made = _fitting(built, tension, runner if kept is None else kept.runner)

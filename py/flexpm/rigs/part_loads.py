@@ -237,7 +237,9 @@ class PartLoads(PartLayout):
     def _require_driven(self, stage: str) -> None:
         """Raise InputError with `stage` as its first word unless a part is driven."""
         if not (self._frame.driven or self._frame.drivenSets):
-            raise InputError(f"{stage} driven parts = none, must be at least 1; call drive or turn")
+            raise InputError(
+                f"{stage} driven parts = none, must be at least 1; call drive or rotate"
+            )
 
     def _require_fixed(self, call: str, free: Sequence[RigPart] = ()) -> None:
         """Reject other loads while a rotating set is free to translate: it fixes nothing then."""
@@ -245,7 +247,8 @@ class PartLoads(PartLayout):
         floating = {number for number, one in enumerate(sets) if one["floats"]}
         if not self._begun and floating - {part.number for part in free}:
             raise InputError(
-                f"{call}: parts = others after turn, must be given once; make a new rig"
+                f"{call}: other parts are loaded after rotate, which is not possible while a "
+                "rotating set is free to translate; make a new rig"
             )
 
     def _turn_about(self, part: HeldNodes, pivot: tuple[float, float, float] | None) -> None:
@@ -281,6 +284,6 @@ def _require_along(part: HeldNodes, direction: tuple[float, float, float]) -> No
     for axis, way in zip(SPACE, direction, strict=True):  # z of the plane is 0
         if way != 0.0 and axis not in part.axes:
             raise InputError(
-                f"drive: part = {part}, held along {part.axes} alone, must be held along {axis}; "
-                "hold them so or turn the direction"
+                f"drive: part = {part}, fixed only along {part.axes}, must be fixed along {axis}; "
+                f"pass {axis} to hold, or change the direction"
             )

@@ -327,8 +327,8 @@ class PartRig(PartColumns, PartExcavation):
                 return
         part = Part(self, self.built.solver, "plate", frame.driven[0])
         raise InputError(
-            f"load: driven part = {part}, pulls without bond, must push; turn the direction, or "
-            "lay it with bonded=True"
+            f"load: driven part = {part}, pulls without bond, must push; reverse the direction, or "
+            "pass bonded=True to platen or support"
         )
 
     def _take_hold(self) -> wrapper.LoadingController:

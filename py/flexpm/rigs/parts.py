@@ -199,14 +199,17 @@ def require_part(label: str, rig: object, part: object, kind: type[Kind]) -> Kin
     """Return a part of a rig, or raise InputError."""
     if not isinstance(part, RigPart):
         raise InputError(
-            f"{label} = {quoted(part)}, must be a part; pass a result of support, platen or hold"
+            f"{label} = {quoted(part)}, must be a part; pass a result of support(), platen() or "
+            "hold()"
         )
     if part.rig is not rig:
         raise InputError(
             f"{label} = {part} of another rig, must be a part of this rig; create it with this rig"
         )
     if not isinstance(part, kind):
-        wanted = "held nodes; call hold" if kind is HeldNodes else "a support or a platen"
+        wanted = (
+            "a set of held nodes, from hold()," if kind is HeldNodes else "a support or a platen"
+        )
         raise InputError(f"{label} = {part}, must be {wanted} of this rig")
     return part
 

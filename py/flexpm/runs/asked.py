@@ -163,7 +163,7 @@ def write_report(folder: Path, result: Result) -> Path:
         spec = RunSpec.from_json(result.inputs or {})
     commands = [_AGAIN] if ended else []
     if line := command(spec):
-        commands.append(("By all that was asked for:", line))
+        commands.append(("Or with all inputs on the command line:", line))
     return write_page(folder, result, told(spec), commands)
 
 
@@ -261,7 +261,7 @@ def _of_specimen(spec: AnySpec) -> Iterator[Input]:
             continue
         source = "default" if value == default else "given"
         if name in ("discs", "outline", "cells", "minerals", "joints", "strengths"):
-            source = f"checksum of what is in {GRAINS_FILE}"
+            source = f"checksum of the content of {GRAINS_FILE}"
         elif name == "kind":
             source = "given" if is_solid(value) else "by the test"
         label = "shape" if name == "kind" else name

@@ -47,7 +47,7 @@ def refuse_other_kind(folder: Path, kind: str) -> None:
     if found is not None and found != kind:
         raise InputError(
             f"out = {str(folder)!r}, has results of {_SAID.get(found, found)}, must be free for "
-            f"those of {_SAID.get(kind, kind)}; choose another folder"
+            f"results of {_SAID.get(kind, kind)}; choose another folder"
         )
 
 

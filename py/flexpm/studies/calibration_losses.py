@@ -43,7 +43,7 @@ def loss(plan: Calibration, target: Target, outcomes: Outcomes, seeds: Sequence[
             lines.append(f"{where} {why} in {count} of {len(runs)} runs{_size(lost)}")
             remedies.append(remedy)
     if not lines:
-        return "the peaks of its runs follow no criterion; change confinements"
+        return "no failure criterion fits the peaks of its runs; change confinements"
     return f"{', '.join(lines)}; {', '.join(dict.fromkeys(remedies))}"
 
 

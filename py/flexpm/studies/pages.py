@@ -222,7 +222,7 @@ def _verdict(folder: Path) -> tuple[Status | None, list[Rows]]:
     note = "1: the targets leave the key anywhere within its bounds; small: they determine it."
     tables = [Rows("How open the keys are", ("key", "scatter left [-]"), shares, note)]
     if measures := content.get("measures"):
-        header = ("measure", "result", "target", "tolerance [%]", "verdict", "what to change")
+        header = ("measure", "result", "target", "tolerance [%]", "verdict", "advice")
         tables.insert(0, Rows("Targets", header, [_of_target(one) for one in measures]))
     return box, tables
 
@@ -293,7 +293,7 @@ def _runs(
 def _means(means: Sequence[Mapping[str, str]]) -> Rows:
     """Means over the packings with their standard deviations."""
     shown = words_of_test(means[0]["test"]).shown
-    header = ["model", "confinement [MPa]", "runs", *(one.heading for one in shown.values())]
+    header = ["model", "confining pressure [MPa]", "runs", *(one.heading for one in shown.values())]
     lines = []
     for row in means:
         cells = []
@@ -350,7 +350,7 @@ def _about(found: Mapping[str, Result]) -> list[Rows]:
     tables = []
     if doubtful:
         rows = [(one.name, one.meaning, one.advice) for one in doubtful]
-        tables.append(Rows("What the status means", ("status", "meaning", "what to do"), rows))
+        tables.append(Rows("Meaning of the status", ("status", "meaning", "advice"), rows))
     for place, first in [*found.items()][:1]:
         asked = told_of(first.inputs or {})
         tables.append(inputs_table(asked, f"Inputs of {place}"))

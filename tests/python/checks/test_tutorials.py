@@ -153,7 +153,7 @@ def test_incline(package_parent):
 def test_toppling(package_parent):
     text = printed("toppling.py", package_parent)
     assert "dip = 26.07 degrees: stands, on 16" in text
-    assert "dip = 27.07 degrees: settle: reactions lack" in text
+    assert "dip = 27.07 degrees: settle: missing reactions =" in text
     assert "topples: by 5 degrees after 0." in text
 
 

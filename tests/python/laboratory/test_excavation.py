@@ -220,7 +220,9 @@ def test_what_would_hang_on_nothing_is_refused_and_nothing_is_taken(whole):
     rig, _ = made(whole.with_excavations(rings))
     held = rig.hold(disc=((0.006, 0.006), 2e-4))
     grains = rig.built.counts()["grains"]
-    with pytest.raises(InputError, match="contains held nodes at .*; hold other nodes") as refused:
+    with pytest.raises(
+        InputError, match="contains held nodes at .*; pass other nodes to hold"
+    ) as refused:
         rig.excavate("outer")
     assert "\n" not in str(refused.value) and held.nodes
     refusal("unknown .did you mean inner", rig.excavate, "iner")

@@ -115,7 +115,7 @@ def test_a_block_stands_up_to_the_dip_of_its_width_over_its_height(ratio):
 def test_a_block_beyond_it_topples(ratio):
     rig, block = standing(0.5, ratio)
     before = places_of(block)
-    failure("settle: reactions lack .* held nodes at", rig.settle)
+    failure("settle: missing reactions = .* held nodes at", rig.settle)
     for _ in range(60):
         if abs(turned(block, before)) > 5.0:
             break

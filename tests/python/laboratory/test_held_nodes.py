@@ -148,7 +148,10 @@ def test_nodes_that_cannot_be_held_are_refused_in_one_line(bar):
         (lambda: rig.hold(disc=((LENGTH / 2, 0.001), 0.002)), "lies on a plate"),
         (lambda: rig.support((0.001, 0.0)), "support: .* lies on a plate"),
         (lambda: rig.platen(3), "platen: .* lies on a plate"),
-        (lambda: rig.rotate([plate]), "rotate: part = support at .* must be held nodes; call hold"),
+        (
+            lambda: rig.rotate([plate]),
+            "rotate: part = support at .* must be a set of held nodes, from hold",
+        ),
         (lambda: left.move((float("nan"), 0.0)), "move: velocity: x = nan m/s, must be finite"),
     ):
         refusal(message, wrong)

@@ -257,7 +257,7 @@ def test_the_static_solution_of_a_solid_is_where_steps_lead(model):
     refusal("driven parts = none", rig.elastic, displacement=1e-6)
     rig.drive(top, (0, 0, -1), against=floor, strength=1e4)
     refusal(
-        "displacement = 1e-06, must be left out beside a load",
+        "displacement = 1e-06, must be left out if a load is given",
         rig.elastic,
         displacement=1e-6,
         load=1.0,

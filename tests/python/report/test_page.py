@@ -350,7 +350,7 @@ def test_the_command_for_a_given_specimen_names_its_file(tmp_path):
     flexpm.run("tension", own, max_strain=2e-5, out=tmp_path)
     text = (tmp_path / page.FILE).read_text(encoding="utf-8")
     assert "flexpm run tension --specimen grains.json --max-strain 2e-05" in text
-    assert "checksum of what is in grains.json" in text
+    assert "checksum of the content of grains.json" in text
 
 
 def test_what_is_no_specimen_is_refused(tmp_path):

@@ -22,7 +22,7 @@ namespace {
 			object->pySetAttr(name, given);
 			const bool falsified = fault == std::string(className) + "." + name;
 			const bool ok        = read(*object) != falsified;
-			found.push_back({ className, std::string("attribute ") + name, ok, ok ? "same place" : "at another place than in its headers" });
+			found.push_back({ className, std::string("attribute ") + name, ok, ok ? "same offset" : "at another offset than in its headers" });
 		}
 	};
 

@@ -138,12 +138,12 @@ void register_laboratory_bindings()
 	py::def("bond_strengths",
 	        bondStrengths,
 	        (py::arg("strengths"), py::arg("areas"), py::arg("pairs"), py::arg("spheres")),
-	        "Lowest strength that bonds on 1 % of the area do not exceed, and the largest that connects the spheres [Pa], of bonds with these areas [m2] "
-	        "between pairs of spheres.");
+	        "Return two strengths [Pa] of bonds with these areas [m2] between pairs of spheres: the smallest that the bonds on 1 % of the area do not "
+	        "exceed, and the largest whose bonds still connect all spheres.");
 	py::def("rectangle_scales",
 	        rectangleScales,
 	        (py::arg("modulus"), py::arg("strengths"), py::arg("mass"), py::arg("thickness"), py::arg("dt"), py::arg("width"), py::arg("height")),
-	        "Scales of a test of a rectangle by name, as AxialRecorder.scales; strengths as bond_strengths gives them.");
+	        "Scales of a test of a rectangle by name, as AxialRecorder.scales; strengths as bond_strengths returns them.");
 	py::def("disc_scales",
 	        discScales,
 	        (py::arg("modulus"), py::arg("strengths"), py::arg("mass"), py::arg("thickness"), py::arg("dt"), py::arg("diameter")),
@@ -152,21 +152,28 @@ void register_laboratory_bindings()
 	        axialStress,
 	        (py::arg("bottom"), py::arg("top"), py::arg("area"), py::arg("tension")),
 	        "Mean of the reactions of both ends [N] over an area [m2], positive in the sense of the loading [Pa].");
-	py::def("end_mismatch", endMismatch, (py::arg("bottom"), py::arg("top")), "|sum of both ends' forces| over the larger [-].");
+	py::def("end_mismatch",
+	        endMismatch,
+	        (py::arg("bottom"), py::arg("top")),
+	        "Ratio of the sum of both ends' forces to the larger force, in absolute values [-].");
 	py::def("splitting_area",
 	        flexpm::splitting_area,
 	        (py::arg("diameter"), py::arg("thickness")),
-	        "Area over which the force of a Brazilian test gives its stress 2 P / (pi D t) [m2].");
-	py::def("ramp_factor", flexpm::ramp_factor, (py::arg("step"), py::arg("ramp_steps")), "Part of the full load in the coming step of a ramp [-].");
+	        "Area by which the force of a Brazilian test is divided for its stress 2 P / (pi D t) [m2].");
+	py::def("ramp_factor",
+	        flexpm::ramp_factor,
+	        (py::arg("step"), py::arg("ramp_steps")),
+	        "Ratio of the load in the coming step of a ramp to the full load [-].");
 	py::def("test_state",
 	        testState,
 	        (py::arg("stress"), py::arg("peak"), py::arg("strain"), py::arg("rule"), py::arg("plateau")),
-	        "Whether a test is over; stresses are those above the confinement [Pa]. The rule has the stop ratio, the least peak, and the least and the "
-	        "largest strain.");
+	        "Return whether a test is over, and why. Stresses are above the confining pressure [Pa]. The rule has the stop ratio, the smallest peak, and "
+	        "the smallest and the largest strain.");
 	py::def("is_plateau",
 	        isPlateau,
 	        (py::arg("strains"), py::arg("stresses"), py::arg("plateau_strain")),
-	        "Whether the stresses above the confinement [Pa] have been constant, within 2 %, over the last strain of this size; not if it is 0 [-].");
+	        "Return whether the stresses above the confining pressure [Pa] have been constant, within 2 %, over the last plateau_strain; never if it is 0 "
+	        "[-].");
 	py::class_<StrainGauge, std::shared_ptr<StrainGauge>>(
 	        "StrainGauge", "Bands and sides of a rectangle between which the strains of its grains are measured.", py::no_init)
 	        .def("__init__",

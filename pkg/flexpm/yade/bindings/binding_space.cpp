@@ -153,7 +153,7 @@ namespace {
 		        .add_property("moved_centres", integers<P, int, &P::moved_centres>, "Cells whose centre is their centroid.")
 		        .def_readonly("contacts", &P::contacts, "Number of faces between cells.")
 		        .def_readonly("uncollapsed_contacts", &P::uncollapsed_contacts, "Contacts before short edges were collapsed.")
-		        .def_readonly("short_edges", &P::short_edges, "Edges below the limit that had to stay.");
+		        .def_readonly("short_edges", &P::short_edges, "Edges below the limit that could not be removed.");
 	}
 
 } // namespace
@@ -197,20 +197,23 @@ void register_space_bindings()
 	py::def("polyhedra",
 	        polyhedra,
 	        (py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("allow_hidden"), py::arg("notches") = py::list()),
-	        "Laguerre cells of rows x, y, z, radius; notches: x and z of the front of each, and whether it comes from above; flanks of notch i have the "
-	        "walls + i as their wall.");
+	        "Return the Laguerre cells of spheres, rows x, y, z, radius. notches: x and z of the front of each notch, and whether it comes from above; the "
+	        "flanks of notch i have the wall index walls + i.");
 	py::def("own_polyhedra",
 	        ownPolyhedra,
 	        (py::arg("vertices"), py::arg("faces"), py::arg("spheres"), py::arg("solid"), py::arg("short_edge")),
-	        "Given convex cells: faces are rows of cells, offsets among the corners, and these; spheres rows x, y, z, radius of cells.");
+	        "Return user-supplied convex cells. faces: pairs of cells, offsets of the faces in the list of corners, and this list; spheres: rows x, y, z, "
+	        "radius of the cells.");
 	py::def("fan_meshes", fanMeshes, py::arg("cells"), "Tetrahedra of all cells.");
 	py::def("solid_constants",
 	        solidConstants,
 	        (py::arg("cells"), py::arg("solid"), py::arg("laws"), py::arg("kinds")),
-	        "Young's modulus [Pa], Poisson's ratio, iterations and residual of a static solve. laws: rows young [Pa], poisson, normal_stiffness [Pa/m], "
-	        "shear_ratio "
-	        "of contacts of kinds i and j, at i times their number plus j; kinds: that of each cell; empty: all are alike.");
-	py::def("face_point_counts", facePointCounts, py::arg("cells"), "Points of all contacts, and contacts with equal points instead of the rule's.");
+	        "Return Young's modulus [Pa], Poisson's ratio, iterations and residual of a static solution. laws: rows young [Pa], poisson, normal_stiffness "
+	        "[Pa/m], shear_ratio of the contacts between kinds i and j of n, at row i n + j; kinds: kind of each cell (empty: all cells have one kind).");
+	py::def("face_point_counts",
+	        facePointCounts,
+	        py::arg("cells"),
+	        "Return the number of points of all contacts, and the number of contacts with equal points instead of the points of the rule.");
 }
 
 } // namespace flexpm_bindings

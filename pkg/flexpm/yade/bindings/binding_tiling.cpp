@@ -155,11 +155,13 @@ void register_tiling_bindings()
 	        cutByJoints,
 	        (py::arg("tessellation"), py::arg("centres"), py::arg("radii"), py::arg("joints"), py::arg("lines"), py::arg("numbers"), py::arg("tell")),
 	        "Cells cut by lines, each (n, 2) [m], of joints with numbers; joints has those that shared edges have already, -1 without. "
-	        "tell is called with the number of lines done. Also rows length, cut, taken, outside [m] and contacts, joint that has taken, one per line.");
+	        "tell is called with the number of finished lines. Returns also one row per line: length, cut, taken, outside [m], contacts, and the joint "
+	        "that "
+	        "has taken the rest.");
 	py::def("cells_of_file",
 	        cellsOfFile,
 	        (py::arg("vertices"), py::arg("cells"), py::arg("sides"), py::arg("joints"), py::arg("centres"), py::arg("radii"), py::arg("laguerre")),
-	        "Cells as they were stored; sides and joints are rows start, end, number; laguerre is that of the Tessellation.");
+	        "Stored cells; sides and joints are rows start, end, number; laguerre as in Tessellation.");
 }
 
 } // namespace flexpm_bindings

@@ -14,7 +14,7 @@ public:
 	FUNCTOR1D(LaguerreCell);
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Bo1_LaguerreCell_Aabb, BoundFunctor,
-		"Bounding box of a :yref:`LaguerreCell`: its nodes and its disc, as thick as the disc; of a polyhedron its nodes.");
+		"Creates the bounding box of a :yref:`LaguerreCell` around its nodes; in 2D also around its disc, with the thickness of a sphere of this radius.");
 	// clang-format on
 	DECLARE_LOGGER;
 

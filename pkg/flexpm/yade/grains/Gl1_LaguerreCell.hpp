@@ -17,7 +17,7 @@ public:
 	YADE_CLASS_BASE_DOC_STATICATTRS(Gl1_LaguerreCell, GlShapeFunctor,
 		"Displays a :yref:`LaguerreCell`: its triangles filled, its outline, and its mesh on request; of a polyhedron its faces and edges, and the section where a plane "
 		"cuts a 3D specimen. A scale next to the specimen shows the meaning of the colours. Faces of polyhedra are darker the more they face away, sections are not.",
-		((bool, mesh, false,, "Draw the triangles' edges."))
+		((bool, mesh, false,, "Display the edges of the triangles."))
 		((Real, scale, 1.,, "Scale factor of the displacements [-]."))
 		((string, colour, "shape",, "Quantity that colours a grain: ``shape``, the colour of its shape; ``stress_xx``, ``stress_yy`` or ``stress_xy``, in 3D also ``stress_zz``, ``stress_yz`` or ``stress_xz``, its mean stress (tension positive); "
 			"``displacement`` of its centre; ``damage``, the mean over the points of its bonds; ``mineral``; ``fragment``, the largest pale. Any other word is ``shape``."))

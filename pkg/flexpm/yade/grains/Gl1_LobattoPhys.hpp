@@ -14,10 +14,10 @@ public:
 	RENDERS(LobattoPhys);
 	// clang-format off
 	YADE_CLASS_BASE_DOC_STATICATTRS(Gl1_LobattoPhys, GlIPhysFunctor,
-		"Draws the cracks and the force of a :yref:`LobattoPhys`, where ``yade.qt.Renderer().intrPhys`` is set. Displacements are as large as :yref:`Gl1_LaguerreCell.scale` makes them. "
+		"Displays the cracks and the force of a :yref:`LobattoPhys` if ``yade.qt.Renderer().intrPhys`` is set. :yref:`Gl1_LaguerreCell.scale` also scales the displacements here. "
 		"In 3D grains hide the bonds behind them: :yref:`Gl1_LaguerreCell.cutNormal` cuts the specimen, and without ``yade.qt.Renderer().shape`` only cracks and forces are displayed.",
 		((bool, cracks, true,, "Display the part of the edge or face of each cracked point: blue if it cracked in tension, orange in shear."))
-		((bool, forces, false,, "Draw the normal force as a line between the centres: black in compression, red in tension, as wide as it is large."))
+		((bool, forces, false,, "Display the normal force as a line between the centres: black in compression, red in tension; the width is proportional to the force."))
 		((Real, crackWidth, 3.,, "Width of a crack [pixel]."))
 		((Real, forceWidth, 8.,, "Width of the largest force [pixel]."))
 	);

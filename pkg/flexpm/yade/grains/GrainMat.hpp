@@ -17,10 +17,10 @@ public:
 		"Elastic grain with bilinear, frictional contacts [Azevedo2022]_. :yref:`young<ElastMat.young>` and "
 		":yref:`poisson<ElastMat.poisson>` are properties of the grain [Pa], [-].",
 		((Real, normalStiffness, 1.8e14,, "Normal stiffness of a contact per area K_n, Eq. 22 [Pa/m]."))
-		((Real, shearRatio, 0.28,, "Shear over normal stiffness eta, Eq. 23 [-]."))
+		((Real, shearRatio, 0.28,, "Ratio eta of shear to normal stiffness, Eq. 23 [-]."))
 		((Real, tensileStrength, 8.5e6,, "Tensile strength of a contact point, Eq. 24 [Pa]."))
 		((Real, cohesion, 29.75e6,, "Cohesion of a contact point, Eq. 25 [Pa]."))
-		((Real, friction, 0.4,, "Coefficient of friction mu_c, Eq. 25; it stays after cracking [-]."))
+		((Real, friction, 0.4,, "Coefficient of friction mu_c, Eq. 25, which also acts after cracking [-]."))
 		((Real, tensileFractureEnergy, 20.,, "Area under the tensile softening curve, Fig. 3a [N/m]."))
 		((Real, shearFractureEnergy, 800.,, "Area under the shear softening curve, Fig. 3b [N/m]."))
 		((Real, dilation, 0.,, "Tangent of the dilation angle of a joint, at most its friction: opening per plastic slip [-]."))

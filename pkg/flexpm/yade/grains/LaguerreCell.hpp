@@ -29,23 +29,23 @@ public:
 		"Grain meshed with constant-strain triangles, or tetrahedra in 3D. Its state lives in :yref:`GrainSolver`; the arrays are views "
 		"of it (no copy), valid until the solver assembles or loads another specimen. Nodes are numbered corners first "
 		"(counter-clockwise in 2D), then the centre, then the inner ring. Vectors have d components, 2 or 3.",
-		((int, grain, -1, Attr::readonly, "Number of the grain in the solver [-]."))
+		((int, grain, -1, Attr::readonly, "Index of the grain in the solver [-]."))
 		, createIndex();
 		, .add_property("positions", &LaguerreCell::positions, "Node positions, (n, d) [m]; read-only, a copy in 3D.")
 		.add_property("displacements", &LaguerreCell::displacements, "Node displacements from the bonded state, (n, d) [m]; of a rigid polyhedron a copy, read-only.")
 		.add_property("velocities", &LaguerreCell::velocities, "Node velocities, (n, d) [m/s, or m per step with scaled masses]; of a rigid polyhedron a copy, read-only.")
-		.add_property("forces", &LaguerreCell::forces, "Nodal forces of the last step without damping, (n, d) [N]; of a rigid polyhedron a copy, with the sum of the others at the centre.")
-		.add_property("held", &LaguerreCell::held, "1 where the velocity component is prescribed, (n, d) [-]; of a rigid grain the centre's counts.")
+		.add_property("forces", &LaguerreCell::forces, "Nodal forces of the last step without damping, (n, d) [N]; of a rigid polyhedron a copy, in which the centre has the sum of all other forces.")
+		.add_property("held", &LaguerreCell::held, "1 where the velocity component is prescribed, (n, d) [-]; of a rigid grain only the row of the centre counts.")
 		.add_property("triangles", &LaguerreCell::triangles, "Node indices of each triangle, counter-clockwise; of a polyhedron the triangles of its faces, seen from outside.")
 		.add_property("tetrahedra", &LaguerreCell::tetrahedra, "Node indices of each tetrahedron, the centre first; empty in 2D.")
 		.add_property("vertices", &LaguerreCell::vertices, "Number of corners; also the index of the centre node [-].")
 		.add_property("rigid", &LaguerreCell::rigid, "The grain is rigid; its nodes follow the centre.")
-		.add_property("parentGrain", &LaguerreCell::parentGrain, "Number of the grain of the rock that this is, or is an inner particle of [-].")
+		.add_property("parentGrain", &LaguerreCell::parentGrain, "Index of the rock grain to which the cell belongs: the grain itself, or the grain of which it is an inner particle [-].")
 		.def("setMotion", &LaguerreCell::setMotion, (boost::python::arg("velocity"), boost::python::arg("spin")),
-			"Velocity of the centre [m/s, or m per step with scaled masses] and angular velocity [rad/s, or rad per step] of a rigid grain; "
-			"its nodes' velocities follow.")
+			"Set the velocity of the centre [m/s, or m per step with scaled masses] and the angular velocity [rad/s, or rad per step] of a rigid grain; "
+			"the velocities of its nodes follow.")
 		.def("setMotion", &LaguerreCell::setSpaceMotion, (boost::python::arg("velocity"), boost::python::arg("spin")),
-			"The same of a rigid polyhedron, whose angular velocity is a vector.")
+			"Set the velocity of the centre and the angular velocity, a vector, of a rigid polyhedron; units as above.")
 	);
 	// clang-format on
 	REGISTER_CLASS_INDEX(LaguerreCell, Shape);

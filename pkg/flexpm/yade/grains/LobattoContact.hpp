@@ -24,15 +24,15 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoGeom, ScGeom,
-		"Shared edge of two grains, or face of two polyhedra. Its state lives in :yref:`GrainSolver` and is read on access; the data that YADE's own functions read of the "
-		":yref:`base<ScGeom>` is written by :yref:`GrainSolver.mirrorBodies` and when the simulation stops.",
-		((int, contact, -1, Attr::readonly, "Number of the contact: it keeps it, and no other contact gets it [-]."))
+		"Shared edge of two grains, or face of two polyhedra. Its state lives in :yref:`GrainSolver` and is read on access. :yref:`GrainSolver.mirrorBodies` writes the data "
+		"of the :yref:`base<ScGeom>` for YADE's own functions, also whenever the simulation stops.",
+		((int, contact, -1, Attr::readonly, "ID of the contact; it does not change, and no other contact gets it [-]."))
 		, createIndex(); normal = contactPoint = Vector3r::Zero(); refR1 = refR2 = penetrationDepth = 0;
 		, .add_property("normal", &LobattoGeom::presentNormal, "Unit normal from the first to the second grain, Eq. 5; in 3D the normal of the face (D66) [-].")
 		.add_property("contactPoint", &LobattoGeom::presentContactPoint, "Middle of the edge, or centroid of the face [m].")
-		.add_property("penetrationDepth", &LobattoGeom::presentPenetrationDepth, "Mean closing of the points, below 0 where the bond has opened [m].")
-		.add_property("ends", &LobattoGeom::ends, "Ends of the edge, (2, 2) [m]; a copy. Of the plane alone.")
-		.add_property("corners", &LobattoGeom::corners, "Corners of the face in the middle of both, counter-clockwise as seen from the second grain, (k, 3) [m]; a copy. Only in 3D.")
+		.add_property("penetrationDepth", &LobattoGeom::presentPenetrationDepth, "Mean closure of the points [m]; negative if the bond has opened.")
+		.add_property("ends", &LobattoGeom::ends, "Ends of the edge, (2, 2) [m]; a copy. Only in 2D.")
+		.add_property("corners", &LobattoGeom::corners, "Corners of the face midway between both grains, counter-clockwise as seen from the second grain, (k, 3) [m]; a copy. Only in 3D.")
 		.add_property("points", &LobattoGeom::points, "Positions of the points, (p, 3) [m]; a copy. Only in 3D.")
 	);
 	// clang-format on
@@ -56,17 +56,17 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LobattoPhys, NormShearPhys,
-		"Points of a bond, from one end of the edge to the other; of a face its corners and an inner one. Its state lives in :yref:`GrainSolver`; arrays are read-only copies of it. The data that YADE's own functions read of the "
-		":yref:`base<NormShearPhys>` is written by :yref:`GrainSolver.mirrorBodies` and when the simulation stops; kn and ks are those of the intact bond. "
-		"A kept handle of an erased bond raises an error.",
-		((int, contact, -1, Attr::readonly, "Number of the contact: it keeps it, and no other contact gets it [-]."))
+		"Points of a bond: from one end of the edge to the other in 2D; the corners and an inner point of the face in 3D. Its state lives in :yref:`GrainSolver`; arrays are read-only copies of it. :yref:`GrainSolver.mirrorBodies` writes the data "
+		"of the :yref:`base<NormShearPhys>` for YADE's own functions, also whenever the simulation stops; kn and ks are the stiffnesses of the intact bond. "
+		"Access to an erased bond raises an error.",
+		((int, contact, -1, Attr::readonly, "ID of the contact; it does not change, and no other contact gets it [-]."))
 		, createIndex();
-		, .add_property("normalForce", &LobattoPhys::presentNormalForce, "Part along the normal of the force on the second grain [N].")
-		.add_property("shearForce", &LobattoPhys::presentShearForce, "The rest of the force on the second grain [N].")
-		.add_property("opening", &LobattoPhys::opening, "Opening of each point, (p,) [m], compression below 0; a copy.")
+		, .add_property("normalForce", &LobattoPhys::presentNormalForce, "Normal component of the force on the second grain [N].")
+		.add_property("shearForce", &LobattoPhys::presentShearForce, "Shear component of the force on the second grain [N].")
+		.add_property("opening", &LobattoPhys::opening, "Opening of each point, (p,) [m], negative in compression; a copy.")
 		.add_property("area", &LobattoPhys::area, "Area of each point, (p,) [m^2]; a copy.")
-		.add_property("slip", &LobattoPhys::slip, "Slip of each point along the tangent, (p,) [m], or along both, (p, 2); a copy.")
-		.add_property("traction", &LobattoPhys::traction, "Normal (tension positive) and shear traction, (p, 2) [Pa]; of a face both shears, (p, 3); a copy.")
+		.add_property("slip", &LobattoPhys::slip, "Slip of each point along the tangent, (p,) [m]; in 3D along both tangents, (p, 2); a copy.")
+		.add_property("traction", &LobattoPhys::traction, "Normal (tension positive) and shear traction, (p, 2) [Pa]; in 3D both shear components, (p, 3); a copy.")
 		.add_property("damage", &LobattoPhys::damage, "Damage of each point, (p,) [-]; a copy.")
 		.add_property("cracked", &LobattoPhys::cracked, "0 intact, 1 cracked in tension, 2 in shear, (p,); a copy.")
 		.add_property("forces", &LobattoPhys::forces, "Force of each point on the second grain, (p, 3) [N]; a copy. Only in 3D.")

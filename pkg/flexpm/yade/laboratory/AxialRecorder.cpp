@@ -66,7 +66,7 @@ AxialRecorder::~AxialRecorder() = default;
 
 const TestFrame& AxialRecorder::testFrame() const
 {
-	if (!frame) throw std::invalid_argument("AxialRecorder.frame = None, must be that of the test");
+	if (!frame) throw std::invalid_argument("AxialRecorder.frame = None, must be a TestFrame; assign the frame of the test");
 	return *frame;
 }
 

@@ -24,18 +24,18 @@ public:
 		"friction and damping shows a running crack. It is evaluated at each measured step of :yref:`GrainSolver`. Place it last, after :yref:`AxialRecorder`.",
 		((shared_ptr<AxialRecorder>, recorder,,, "Record of the test; the velocityFactor of its loading is set."))
 		((Real, fastest, 1.,, "Largest velocity factor [-]."))
-		((Real, slowest, .01,, "Smallest velocity factor over the largest [-]."))
-		((Real, sweep, 0.,, "Volume that the loaded area sweeps at this factor: area times velocity [m3/s, or m3 per step with scaled masses]."))
+		((Real, slowest, .01,, "Ratio of the smallest to the largest velocity factor [-]."))
+		((Real, sweep, 0.,, "Loaded area times its velocity at the largest factor [m3/s, or m3 per step with scaled masses]."))
 		((Real, runningShare, .002,, "Cracks propagate if damage, friction and damping dissipate more than this share of the power of the fastest loading [-]."))
-		((Real, shareAfterPeak, .01,, "The same once the stress has fallen from its peak [-]."))
-		((bool, ofFriction, true,, "Friction is taken for a sign of cracks that run; not where faces are to slide."))
-		((Real, crossingSteps, 1.,, "Steps in which a wave crosses the specimen: the velocity at most doubles in them and at most halves in a quarter of them [-]."))
+		((Real, shareAfterPeak, .01,, "Value of runningShare after the stress has dropped from its peak [-]."))
+		((bool, ofFriction, true,, "Friction counts as a sign of propagating cracks; set it to false if faces are expected to slide."))
+		((Real, crossingSteps, 1.,, "Steps of one wave transit of the specimen. During one transit the velocity at most doubles; during a quarter of it the velocity at most halves [-]."))
 		((bool, undampedDescent, false,, "After the stress has dropped from its peak, damping acts only on the deviation of grains from their mean motion since the last check, deviation D55."))
-		((Real, fastestDescent, 0.,, "Largest speed of the mean motion that it then leaves alone [m/s, or m per step with scaled masses]."))
+		((Real, fastestDescent, 0.,, "Largest speed of the mean motion that damping does not act on then [m/s, or m per step with scaled masses]."))
 		((Real, softeningGrowth, 0.,, "Largest growth of the traction on a plane during one wave transit, relative to the traction, when the plane begins to soften, deviation D58; 0: no prediction [-]."))
-		((Real, seen, -1., Attr::hidden, "Damage energy, with that of friction if it counts, at the last check, negative before the first [J]."))
+		((Real, seen, -1., Attr::hidden, "Damage energy at the last check, plus friction energy if ofFriction is set; negative before the first check [J]."))
 		, /* ctor */
-		, .def("release", &CrackWaitController::release, "Let damping act on all but the motion that the loading gives again; call it before another loading.")
+		, .def("release", &CrackWaitController::release, "Make damping act again on all motion except the prescribed loading motion; call it before another loading.")
 	);
 	// clang-format on
 };

@@ -36,14 +36,14 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS(Gauge, Serializable,
 		"Reads the opening or strain between two nodes of grains, the displacement of a plate, or the mean displacement of nodes; :yref:`AxialRecorder` records it as a column. GrainSolver.gaugePoints and GrainSolver.sectionNodes find the nodes.",
 		((string, name,,, "Name of the column."))
-		((int, first, -1,, "Node at the first position, as GrainSolver.gaugePoints gives it [-]."))
+		((int, first, -1,, "Node at the first position, from GrainSolver.gaugePoints [-]."))
 		((int, second, -1,, "Node at the second position [-]."))
 		((int, plate, -1,, "Index of a plate whose displacement is read instead [-]."))
-		((string, reads,,, "What is read of that plate instead of its way: crosshead, the way of its crosshead; machine_energy, stored in the spring between both [J]; contact_angle, of a disc in a jaw [rad]; angle, by which a seated plate is turned from square to its normal, in space its size [rad]."))
-		((vector<int>, nodes,,, "Nodes whose mean displacement is read instead, as GrainSolver.sectionNodes gives them [-]."))
+		((string, reads,,, "Other quantity of that plate that is read instead of its displacement: crosshead, displacement of its crosshead [m]; machine_energy, energy of the spring between crosshead and plate [J]; contact_angle, angle over which a disc touches a jaw [rad]; angle, rotation of a seated plate, in 3D its magnitude [rad]."))
+		((vector<int>, nodes,,, "Nodes whose mean displacement is read instead, from GrainSolver.sectionNodes [-]."))
 		((Vector3r, direction, Vector3r::UnitX(),, "Direction of the opening or displacement, a unit vector [-]."))
-		((Real, zero, 0.,, "What it has opened, or the plate has moved, when it began to count [m]."))
-		((Real, length, 0.,, "Length to which a strain refers; 0: the opening itself [m]."))
+		((Real, zero, 0.,, "Opening or displacement that counts as zero [m]."))
+		((Real, length, 0.,, "Gauge length of a strain; 0: the opening itself is read [m]."))
 	);
 	// clang-format on
 };

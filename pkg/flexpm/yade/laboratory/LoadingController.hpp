@@ -18,18 +18,18 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(LoadingController, BoundaryController,
 		"Base of engines that load a specimen at a velocity. Not to be used directly.",
-		((Real, velocityFactor, 1.,, "Present velocity over the velocity that is set, which is the slowest; :yref:`LoadingRateController` and :yref:`ServoController` write it, the latter below 0 where the ends go back [-] |yupdate|."))
-		((bool, undampedLoading, false,, "Start all grains with the velocities of the elastic solution, let these follow the velocity of the loading, and let damping act only on the deviation from them."))
-		((int, renewPeriod, 1000,, "Steps after which these velocities are recomputed, if joints have begun or ceased to slide or, under loading by parts, points have cracked [-]."))
-		((long, renewedAt, 0, Attr::hidden, "Step at which that was last looked for [-]."))
-		((int, seenSoftened, 0, Attr::hidden, "Points that had softened then [-]."))
-		((int, seenSliding, 0, Attr::hidden, "Contacts of joints that slid then [-]."))
+		((Real, velocityFactor, 1.,, "Ratio of the present velocity to the velocity that is set. :yref:`LoadingRateController` and :yref:`ServoController` set it; a ServoController sets it below 0 to move the ends back [-] |yupdate|."))
+		((bool, undampedLoading, false,, "Start all grains with the velocities of the elastic solution, scale these with the velocity of the loading, and damp only the deviation from them."))
+		((int, renewPeriod, 1000,, "Steps between recomputations of these velocities, which happen if joints have started or stopped sliding or, in a loading by parts, if points have cracked [-]."))
+		((long, renewedAt, 0, Attr::hidden, "Step of the last check for such changes [-]."))
+		((int, seenSoftened, 0, Attr::hidden, "Softened points at that step [-]."))
+		((int, seenSliding, 0, Attr::hidden, "Sliding contacts of joints at that step [-]."))
 		((Real, seenFactor, 0., Attr::hidden, "The factor at the last step; 0 before the first [-]."))
 		((vector<int>, heldBefore,, Attr::hidden, "Components that were fixed before preload() fixed all [-]."))
 		, /* ctor */
 		, .def("preload", &LoadingController::preload, (boost::python::arg("share"), boost::python::arg("steps")),
 			"Prescribe all nodes between driven ends: within this number of steps the specimen follows its elastic solution to this share of the load at which the first contact point leaves its elastic branch.")
-		.def("release", &LoadingController::release, "Release the nodes after these steps; the top continues at the velocity.")
+		.def("release", &LoadingController::release, "Release the nodes after these steps; the top continues at its velocity.")
 	);
 	// clang-format on
 

@@ -14,13 +14,13 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(LoadingRateController, BoundaryController,
-		"Raises and lowers the velocity of a loading: fast while the specimen is elastic, slow while damage and friction take the work. "
-		"It looks at each measured step of :yref:`GrainSolver`. Place it last, after :yref:`AxialRecorder`.",
-		((shared_ptr<LoadingController>, loading,,, "What drives the specimen; its velocityFactor is set."))
+		"Raises and lowers the velocity of a loading: fast while the specimen is elastic, slow while damage and friction dissipate the work. "
+		"It is evaluated at each measured step of :yref:`GrainSolver`. Place it last, after :yref:`AxialRecorder`.",
+		((shared_ptr<LoadingController>, loading,,, "Loading engine whose velocityFactor is set."))
 		((Real, fastest, 1.,, "Largest velocity factor [-]."))
-		((Real, slowShare, .02,, "The factor is 1 where damage and friction take this share of the boundary's work, or more [-]."))
-		((Real, crossingSteps, 1.,, "Steps in which a wave crosses the specimen: the velocity at most doubles in them and at most halves in a quarter of them [-]."))
-		((vector<Real>, seen,, Attr::hidden, "Damage and friction energy and the boundary's work at the last look [J]."))
+		((Real, slowShare, .02,, "Share of the boundary's work dissipated by damage and friction from which on the factor is 1 [-]."))
+		((Real, crossingSteps, 1.,, "Steps of one wave transit of the specimen. During one transit the velocity at most doubles; during a quarter of it the velocity at most halves [-]."))
+		((vector<Real>, seen,, Attr::hidden, "Damage and friction energy and the boundary's work at the last evaluation [J]."))
 	);
 	// clang-format on
 };

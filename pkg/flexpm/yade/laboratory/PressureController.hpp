@@ -23,11 +23,11 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS(PressureController, BoundaryController,
 		"Moves rigid plates of :yref:`GrainSolver` under a pressure, each independently along its normal; several on a "
 		"side make a membrane. :yref:`PlateController` moves plates at a velocity. Place it before :yref:`GrainSolver`.",
-		((vector<int>, plates,,, "Numbers of the plates, as GrainSolver.addSidePlates and addTouchingPlate return them [-]."))
-		((Real, pressure, 0.,, "Pressure, of a plate on its width, compressive positive [Pa]."))
-		((int, rampSteps, 0,, "Steps over which the pressure goes to its value, gently at both ends [-]."))
-		((Real, startPressure, 0.,, "Pressure from which it does [Pa]."))
-		((long, rampBegin, -1,, "Step from which they count; below 0: the next one [-] |yupdate|."))
+		((vector<int>, plates,,, "Indices of the plates, from GrainSolver.addSidePlates or addTouchingPlate [-]."))
+		((Real, pressure, 0.,, "Pressure on the width of each plate, compression positive [Pa]."))
+		((int, rampSteps, 0,, "Steps over which the pressure changes smoothly from startPressure to its value [-]."))
+		((Real, startPressure, 0.,, "Pressure at the beginning of the ramp [Pa]."))
+		((long, rampBegin, -1,, "First step of the ramp; below 0: the next step [-] |yupdate|."))
 	);
 	// clang-format on
 };

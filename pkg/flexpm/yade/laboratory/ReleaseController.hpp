@@ -15,15 +15,15 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(ReleaseController, BoundaryController,
-		"Applies the forces of excavated grains to nodes of the remaining grains; GrainSolver.wallForces returns them beforehand. "
-		"Their share changes from one value to another. Place it before :yref:`GrainSolver`.",
-		((vector<int>, nodes,,, "Nodes, ascending, as GrainSolver.wallForces returns them [-]."))
-		((vector<Vector3r>, forces,,, "Force on each, x and y [N]."))
-		((Real, part, 0.,, "Part of the forces to which they go [-]."))
-		((Real, startPart, 0.,, "Part from which they do [-]."))
-		((int, rampSteps, 0,, "Steps over which they do, gently at both ends [-]."))
-		((long, rampBegin, -1,, "Step from which they count; below 0: the next one [-] |yupdate|."))
-		((Real, acting, 0.,, "Part that has acted in the last step [-] |yupdate|."))
+		"Applies a changing share of the forces of excavated grains to the nodes of the remaining grains. GrainSolver.wallForces returns these forces before the excavation. "
+		"Place it before :yref:`GrainSolver`.",
+		((vector<int>, nodes,,, "Nodes, ascending, from GrainSolver.wallForces [-]."))
+		((vector<Vector3r>, forces,,, "Force on each node, x and y [N]."))
+		((Real, part, 0.,, "Share of the forces at the end of the ramp [-]."))
+		((Real, startPart, 0.,, "Share of the forces at the beginning of the ramp [-]."))
+		((int, rampSteps, 0,, "Steps over which the share changes smoothly from startPart to part [-]."))
+		((long, rampBegin, -1,, "First step of the ramp; below 0: the next step [-] |yupdate|."))
+		((Real, acting, 0.,, "Share of the forces in the last step [-] |yupdate|."))
 	);
 	// clang-format on
 

@@ -12,7 +12,8 @@ ServoController::~ServoController() = default;
 
 void ServoController::action()
 {
-	if (!recorder || !ends) throw std::runtime_error("ServoController.recorder or ends = None, must be those of the test");
+	if (!recorder || !ends)
+		throw std::runtime_error("ServoController.recorder or ends = None, must be engines; assign the recorder and the loading engine of the test");
 	auto&      solver = *GrainSolver::ofScene(*scene);
 	const long step   = solver.stepsDone();
 	const Real steps  = step - seenAt;

@@ -20,17 +20,17 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS(SolidLoadingController, LoadingController,
 		"Moves the top of a 3D specimen along z after :yref:`GrainSolver.holdEnds`, or plates and node sets of :yref:`GrainSolver.layLine`, layPatch and addNodeSet. "
-		"It starts with the velocities of the elastic solution, so that no wave runs through the specimen, from where pressures have brought it; with real masses it moves only the loading parts. Place it before :yref:`GrainSolver`.",
+		"All grains start with the velocities of the elastic solution from the state under the present pressures, so that no wave runs through the specimen; with real masses only the loading parts start to move. Place it before :yref:`GrainSolver`.",
 		((Real, velocity, 0.,, "Velocity of the top at factor 1, positive away from the bottom, or of the plates along their direction [m/s, or m per step with scaled masses]."))
-		((vector<int>, plates,,, "Numbers of the plates that move [-]."))
-		((vector<int>, nodeSets,,, "Numbers of the node sets that move; neither: the top does [-]."))
+		((vector<int>, plates,,, "Indices of the plates that move [-]."))
+		((vector<int>, nodeSets,,, "Indices of the node sets that move; without plates and sets the top moves [-]."))
 		((vector<int>, backSets,,, "Indices of the node sets that rotate in the opposite sense [-]."))
-		((Vector3r, direction, Vector3r::UnitZ(),, "Direction of these, or the axis of rotation of the node sets, a unit vector [-]."))
+		((Vector3r, direction, Vector3r::UnitZ(),, "Direction of the plates and node sets, or the axis of rotation of the node sets, a unit vector [-]."))
 		((bool, turns, false,, "The node sets rotate about their positions, with the velocity as spin [rad/s, or rad per step]."))
-		((bool, gripped, false, Attr::readonly, "It has begun to move |yupdate|."))
+		((bool, gripped, false, Attr::readonly, "The motion has begun |yupdate|."))
 		((bool, preloaded, false, Attr::hidden, "All grains are prescribed along the elastic solution."))
 		((Real, seenVelocity, 0., Attr::hidden, "The velocity as set at the last step [m/s, or m per step]."))
-		((Real, drivenAt, 0., Attr::hidden, "Velocity that the top has [m/s, or m per step]."))
+		((Real, drivenAt, 0., Attr::hidden, "Present velocity of the top [m/s, or m per step]."))
 	);
 	// clang-format on
 

@@ -217,7 +217,7 @@ namespace {
 			        "steps of the scene",
 			        Real(state.step),
 			        "",
-			        "must be 0: the static solution in 3D holds for the unloaded specimen; build the specimen again");
+			        "must be 0: the static solution in 3D needs the unloaded specimen; build the specimen again");
 		for (int plate : floating)
 			flexpm::free_plate(state, plate);
 		return state;

@@ -57,7 +57,7 @@ public:
 		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
 		, /* ctor */
 		, .def("elasticState", &RectangleFrame::elasticState, (boost::python::arg("plates"), boost::python::arg("pieces"), boost::python::arg("pressure"), boost::python::arg("way"), boost::python::arg("load")),
-			"Where the scene's specimen would come to rest between its ends, by their nodes or by plates, if no contact broke further: with a pressure on its sides, by so many plates on each, and on a top that is not driven (None: those that act now) [Pa], and a way [m] or a load [N] (None: the way alone counts) of the top. Returns what PartFrame.elasticState does.")
+			"Compute the state of equilibrium of the scene's specimen between its ends, provided that no further contact breaks. plates: the ends are plates, not nodes; pieces: plates on each side; pressure on the sides, and on a top that is not driven [Pa] (None: the present pressures); way: displacement of the top [m]; load on the top [N] (None: only the displacement is prescribed). Returns the same dictionary as PartFrame.elasticState.")
 	);
 	// clang-format on
 
@@ -77,12 +77,12 @@ public:
 
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(DiscFrame, TestFrame,
-		"A disc between a lower and an upper plate, the first two of :yref:`GrainSolver`; in 3D its axis is y, and its plates are those of :yref:`GrainSolver.holdDisc`.",
-		((Real, diameter, 0.,, "Of the disc [m]."))
-		((Real, depth, 0.,, "Of the disc in 3D, along y [m]."))
+		"A disc between a lower and an upper plate, the first two of :yref:`GrainSolver`; in 3D its axis is y, and :yref:`GrainSolver.holdDisc` places the plates.",
+		((Real, diameter, 0.,, "Diameter of the disc [m]."))
+		((Real, depth, 0.,, "Depth of the disc in 3D, along y [m]."))
 		, /* ctor */
 		, .def("elasticState", &DiscFrame::elasticState, (boost::python::arg("plates"), boost::python::arg("pieces"), boost::python::arg("pressure"), boost::python::arg("way"), boost::python::arg("load")),
-			"As RectangleFrame.elasticState, between two plates and without a pressure; in 2D.")
+			"Compute the state of equilibrium as RectangleFrame.elasticState does, between two plates and without a pressure; only in 2D.")
 	);
 	// clang-format on
 };
@@ -104,22 +104,22 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(PartFrame, TestFrame,
 		"Plates and node sets that fix and load a specimen of any outline, by their indices in :yref:`GrainSolver`.",
-		((vector<int>, driven,,, "Plates that load it [-]."))
-		((vector<int>, holding,,, "Plates that resist them [-]."))
-		((vector<int>, drivenSets,,, "Node sets that load it [-]."))
+		((vector<int>, driven,,, "Plates that load the specimen [-]."))
+		((vector<int>, holding,,, "Plates that resist the load [-]."))
+		((vector<int>, drivenSets,,, "Node sets that load the specimen [-]."))
 		((vector<int>, backSets,,, "Node sets that rotate in the opposite sense [-]."))
-		((vector<int>, holdingSets,,, "Node sets that resist a direction [-]."))
+		((vector<int>, holdingSets,,, "Node sets that resist the load [-]."))
 		((Vector3r, direction, Vector3r::Zero(),, "Direction in which the driven parts load, a unit vector; in 2D z = 1: node sets rotate, and the load is the sum of their moments [N m], the displacement their angle [rad] [-]."))
 		((bool, turns, false,, "In 3D: node sets rotate about the direction."))
-		((Real, area, 0.,, "Load over the record's stress [m2]."))
-		((Real, length, 0.,, "Displacement over the record's strain [m]."))
-		((Real, strength, 0.,, "Stress that the test may reach, roughly [Pa]."))
+		((Real, area, 0.,, "Ratio of the load to the recorded stress [m2]."))
+		((Real, length, 0.,, "Ratio of the displacement to the recorded strain [m]."))
+		((Real, strength, 0.,, "Estimate of the stress at the peak [Pa]."))
 		((Real, middle, 0.,, "In 3D: x of the middle of the bottom, where a notch opens [m]."))
-		((Real, reach, 0.,, "In 3D: distance from there to either side, of the lines whose separation is the column cmod [m]; 0: no such column."))
-		((vector<Real>, loadingScales,,, "Scales of the specimen before the loading, in the order of AxialRecorder.scales(); empty until then. A broken specimen would have other scales."))
+		((Real, reach, 0.,, "In 3D: distance from there to each of the two lines whose separation is the column cmod [m]; 0: no such column."))
+		((vector<Real>, loadingScales,,, "Scales of the specimen before the loading, in the order of AxialRecorder.scales(); empty until the loading begins. A broken specimen would have other scales."))
 		, /* ctor */
 		, .def("elasticState", &PartFrame::elasticState, (boost::python::arg("pressed"), boost::python::arg("pressures"), boost::python::arg("way"), boost::python::arg("load")),
-			"Where the scene's specimen would come to rest, if no contact broke further: with pressures [Pa] on the plates that are pressed, beside those that act now, and a way [m] or a load [N] (None: the way alone counts) of what is driven; of sets that turn an angle [rad] or a moment [N m]. The scene stays as it is. Returns the state as GrainSolver.snapshot() has it, forces and displacements of plates and node sets, way, load, the number of solutions, and the points that stick beyond their friction. In 3D the scene's specimen must be unloaded; way, load and the number of solutions come with shares: small states, of which the whole has factor times what each changes.")
+			"Compute the state of equilibrium of the scene's specimen, provided that no further contact breaks. pressed, pressures: plates and the pressures on them [Pa], in addition to the present pressures; way: displacement of the driven parts [m], or the angle of rotating sets [rad]; load on the driven parts [N], or the moment on rotating sets [N m] (None: only the displacement is prescribed). The scene does not change. Returns the state as in GrainSolver.snapshot(), forces and displacements of plates and node sets, way, load, the number of solutions, and the sticking points beyond their friction. In 3D the specimen must be unloaded. The result is then a list of shares, small states: each change from the unloaded state, times factor, is a part of the total change. It also has way, load and the number of solutions.")
 	);
 	// clang-format on
 
@@ -147,7 +147,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS(EndFrame, TestFrame,
 		"A 3D specimen between its ends, along z.",
 		((bool, tension, false,, "Stress and strain count positive in tension instead of compression."))
-		((bool, twoPressures, false,, "A box has different pressures across x and y: the column second_confinement has the larger pressure [Pa]."))
+		((bool, twoPressures, false,, "A box has different pressures across x and y. The column second_confinement has the larger pressure [Pa]."))
 	);
 	// clang-format on
 

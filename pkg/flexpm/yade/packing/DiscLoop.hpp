@@ -40,7 +40,7 @@ public:
 		":yref:`Law2_ScGeom_FrictPhys_CundallStrack`: the same forces to the last bit, from packed arrays. Pairs that begin or cease to touch, walls, "
 		"and contacts with a shear stiffness go through the functors. Radii and stiffnesses must not change while a pair stays as it is; one thread, "
 		":yref:`InsertionSortCollider`; no periodic cell, detection factor, sorting, energy tracking or :yref:`callbacks<InteractionLoop.callbacks>`.",
-		((bool, mirror, true,, "Write the normal force of each contact into :yref:`NormPhys.normalForce` for those who look; :yref:`ScGeom` is as old as the contact. Needed where scripts erase interactions."))
+		((bool, mirror, true,, "Write the normal force of each contact into :yref:`NormPhys.normalForce`, where scripts can read it. :yref:`ScGeom` keeps the values from the creation of the contact. Needed if scripts erase interactions."))
 	);
 	// clang-format on
 };

@@ -158,8 +158,8 @@ public:
 		"Advances all grains by one step, in 2D or 3D: contact points, triangles or tetrahedra, nodes [Azevedo2022]_, Eqs. 1-19. Forces are "
 		"gathered per grain in a fixed order, so results do not depend on the number of threads. It mirrors the centres to "
 		":yref:`State.pos` and :yref:`State.vel`; no :yref:`InteractionLoop` is needed. Bonds and grains may be erased (``O.interactions.erase``, "
-		"``O.bodies.erase``): they are removed at the next step or the next query, whichever is first. A step does not see "
-		"what a script still has a handle of; queries do, and so does the check every checkPeriod steps. "
+		"``O.bodies.erase``): they are removed at the next step or the next query, whichever is first. A step does not "
+		"detect an erasure while a script still has a handle of the object; queries detect it, and so does the check every checkPeriod steps. "
 		"In 3D grains and bonds must not be erased: the next step raises an error.",
 		((flexpm::Assembly, assembly,, Attr::hidden, "The packed arrays of grains in 2D, the only copy of their state."))
 		((flexpm::SolidState, space,, Attr::hidden, "The packed arrays of grains in 3D, the only copy of their state."))
@@ -167,29 +167,29 @@ public:
 		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force [-]."))
 		((int, checkPeriod, 100,, "Steps between two checks for numbers that are not finite, contacts that have ended, and bodies that scripts have erased or replaced [-]."))
 		((int, mirrorPeriod, 1,, "Steps between two updates of the bodies' states, which the grains do not need [-]; flexpm.run uses the period of the checks. With 1, the bonds and O.forces are updated, too, whenever the simulation stops."))
-		((int, touchPeriod, 10,, "Steps between two looks for discs that have come to touch [-]."))
-		((Real, touchMargin, .2,, "Discs closer than this part of a disc's diameter are watched for a touch until the next check [-]."))
+		((int, touchPeriod, 10,, "Steps between two searches for discs that touch [-]."))
+		((Real, touchMargin, .2,, "Ratio of a distance to the diameter of a disc: closer discs are observed for new contacts until the next check [-]."))
 		((vector<Body::id_t>, bodyIds,, Attr::readonly, "Body of each grain [-]."))
 		((vector<shared_ptr<Material>>, materials,, Attr::hidden, "Material of each mineral, as given."))
-		((vector<vector<Real>>, materialValues,, Attr::hidden, "What was taken from them, see valuesOf()."))
-		((Real, massStep, 0., Attr::hidden, "Time step that the masses are scaled for, or the longest that real ones allow; 0 without masses [s]."))
-		((Real, massDamping, 0., Attr::hidden, "Damping for which it is so [-]."))
-		((int, stepsToCome, 0, Attr::noSave, "Steps of O.step() that a loop has still to do: it stops after the last one [-] |yupdate|."))
-		((bool, bondsShown, false, Attr::noSave | Attr::hidden, "The bonds' members hold numbers."))
-		((bool, scaled, true, Attr::readonly, "Masses are scaled to the time step; they rise when new contacts need it."))
+		((vector<vector<Real>>, materialValues,, Attr::hidden, "Values of the materials in use, see valuesOf()."))
+		((Real, massStep, 0., Attr::hidden, "Time step for which the masses are scaled, or the stable time step of real masses; 0 without masses [s]."))
+		((Real, massDamping, 0., Attr::hidden, "Damping factor for which this time step is stable [-]."))
+		((int, stepsToCome, 0, Attr::noSave, "Remaining steps of a loop of O.step(), which stops after the last step [-] |yupdate|."))
+		((bool, bondsShown, false, Attr::noSave | Attr::hidden, "The members of the bonds have present values."))
+		((bool, scaled, true, Attr::readonly, "Masses are scaled to the time step; they increase if new contacts require it."))
 		((bool, diverged, false, Attr::readonly | Attr::noSave, "The simulation was stopped: a number was not finite at a check, faces were inverted in a 3D step, or gravity had detached a grain in 3D |yupdate|."))
 		((string, stopReason, "", Attr::readonly | Attr::noSave, "Reason of this stop, in one line |yupdate|."))
-		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last look for erased bonds."))
+		((long, seenDestroyed, 0, Attr::noSave | Attr::hidden, "Destroyed contact handles at the last search for erased bonds."))
 		, /* ctor */
 		, .def("assemble", &GrainSolver::assemble, (py::arg("input"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("joints") = py::list()),
-			"Build the bonded, unloaded grains, once; flexpm.build calls it. materials: those of the minerals; pairs: of contacts of minerals i and j, at i times their number plus j, all that of i without them; joints: of the joints' contacts.")
+			"Build the bonded, unloaded grains; flexpm.build calls it once. materials: material of each mineral; pairs: material of the contacts between minerals i and j of n, at index i n + j (empty: the material of i); joints: material of the contacts of each joint.")
 		.def("assembleSolid", &GrainSolver::assembleSolid, (py::arg("cells"), py::arg("outline"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("minerals") = vector<int>(), py::arg("rigid") = false),
-			"Build the bonded, unloaded grains, once; flexpm.build calls it. materials: those of the minerals; pairs: of contacts of minerals i and j, at i times their number plus j; minerals: that of each cell.")
+			"Build the bonded, unloaded grains; flexpm.build calls it once. materials: material of each mineral; pairs: material of the contacts between minerals i and j of n, at index i n + j; minerals: mineral of each cell.")
 		.def("addToScene", After<&GrainSolver::requireGrains, &GrainSolver::addToScene>::call, "Make a body of each grain and an interaction of each bond.")
 		.def("scaleMasses", After<&GrainSolver::requireGrains, &GrainSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
-		.def("useRealMasses", After<&GrainSolver::requireGrains, &GrainSolver::useRealMasses>::call, "Use the real masses; returns the stable time step [s].")
+		.def("useRealMasses", After<&GrainSolver::requireGrains, &GrainSolver::useRealMasses>::call, "Use the real masses, and return the stable time step [s].")
 		.def("addSidePlates", After<&GrainSolver::requirePlane, &GrainSolver::addSidePlates>::call, (py::arg("side"), py::arg("pieces") = 1, py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0., py::arg("seated") = false),
-			"Place rigid plates side by side on a side of the outline, with a layer of a stiffness per area between (0: none) [Pa/m]; seated plates rotate about the middle of their faces. Return their indices. Scale the masses afterwards.")
+			"Place rigid plates side by side on a side of the outline, with a soft layer in between. strip: stiffness per area of the layer [Pa/m], 0: no layer; seated plates rotate about the middle of their faces. Return their indices. Scale the masses afterwards.")
 		.def("addTouchingPlate", After<&GrainSolver::requirePlane, &GrainSolver::addTouchingPlate>::call, (py::arg("normal"), py::arg("friction") = 0.),
 			"Place a rigid plate against the outermost point, its normal pointing into the specimen, and return its index. Scale the masses afterwards.")
 		.def("addPatchPlate", After<&GrainSolver::requirePlane, &GrainSolver::addPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
@@ -197,66 +197,66 @@ public:
 		.def("addJawPlate", After<&GrainSolver::requirePlane, &GrainSolver::addJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
 			"Place a rigid arc of a radius [m] around the rim of a disc of this centre [m], over an angle of the disc [rad] about a position on the rim [m], and return its index. Scale the masses afterwards.")
 		.def("findSidePlate", After<&GrainSolver::requirePlane, &GrainSolver::findSidePlate>::call, (py::arg("side"), py::arg("bonded") = false, py::arg("friction") = 0., py::arg("strip") = 0., py::arg("seated") = false),
-			"Index of the single plate that addSidePlates has placed along a side with the same arguments, -1 without.")
+			"Return the index of the single plate that addSidePlates has placed along a side with the same arguments, or -1.")
 		.def("findPatchPlate", After<&GrainSolver::requirePlane, &GrainSolver::findPatchPlate>::call, (py::arg("place"), py::arg("length"), py::arg("normal") = Vector3r::Zero().eval(), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
-			"Index of the plate that addPatchPlate has placed with the same arguments, -1 without.")
+			"Return the index of the plate that addPatchPlate has placed with the same arguments, or -1.")
 		.def("findJawPlate", After<&GrainSolver::requirePlane, &GrainSolver::findJawPlate>::call, (py::arg("place"), py::arg("centre"), py::arg("radius"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
-			"Index of the plate that addJawPlate has placed with the same arguments, -1 without.")
+			"Return the index of the plate that addJawPlate has placed with the same arguments, or -1.")
 		.def("holdEnds", After<&GrainSolver::requireSolid, &GrainSolver::holdEnds>::call, (py::arg("bonded") = false, py::arg("friction") = 0.),
-			"Fix the bottom and the top along z, free across: by their nodes, or for rigid grains by plates, which also pull if they are bonded. With a friction above 0 [-] by plates for all grains, which stick to them from now on within the friction. Scale the masses afterwards.")
-		.def("holdBottom", After<&GrainSolver::requireSolid, &GrainSolver::holdBottom>::call, (py::arg("plate") = false), "Fix the bottom only in the same way, if it is free, and a position on it across; the top may be under a pressure meanwhile. plate: by a plate for all grains.")
-		.def("holdDisc", After<&GrainSolver::requireSolid, &GrainSolver::holdDisc>::call, (py::arg("jawRadius") = 0.), "Place smooth plates below and on top of a disc, or jaws of a radius [m]. The surface that they touch at first does not move along x, and a single position on it not along y, to prevent rolling. Scale the masses afterwards.")
+			"Fix the bottom and the top along z; they may move laterally. Nodes of deformable grains are fixed, rigid grains get plates, which also pull if they are bonded. With a friction above 0 [-] all grains get plates, to which they stick within the friction. Scale the masses afterwards.")
+		.def("holdBottom", After<&GrainSolver::requireSolid, &GrainSolver::holdBottom>::call, (py::arg("plate") = false), "Fix the bottom along z in the same way, if it is free, and one position on it laterally; the top may be under a pressure. plate: use a plate also for deformable grains.")
+		.def("holdDisc", After<&GrainSolver::requireSolid, &GrainSolver::holdDisc>::call, (py::arg("jawRadius") = 0.), "Place smooth plates below and on top of a disc, or jaws of a radius [m]. The surface that they touch first is fixed along x, and a single position on it along y, to prevent rolling. Scale the masses afterwards.")
 		.def("layLine", After<&GrainSolver::requireSolid, &GrainSolver::layLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false),
 			"Place a plate that carries load along a line across the depth, along y at x and z, with the stiffness of a strip of that width [m]: a roller on the bottom (side 0) or a head on top (2). pinned: it does not slide while it presses. Returns its index. Scale the masses afterwards.")
-		.def("findLine", After<&GrainSolver::requireSolid, &GrainSolver::findLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false), "Index of the plate that layLine has placed with the same arguments, -1 without.")
+		.def("findLine", After<&GrainSolver::requireSolid, &GrainSolver::findLine>::call, (py::arg("side"), py::arg("x"), py::arg("z"), py::arg("width"), py::arg("pinned") = false), "Return the index of the plate that layLine has placed with the same arguments, or -1.")
 		.def("layPatch", After<&GrainSolver::requireSolid, &GrainSolver::layPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false),
 			"Place a plate against the part of the surface in a box from low to high [m] that faces a normal, a unit vector that points into the specimen. friction: coefficient [-]; bonded: it also pulls; strip: stiffness per area of a soft layer between, in series [Pa/m]; seated: it rotates about the middle of its face, as on a spherical seat. Returns its index. Scale the masses afterwards.")
-		.def("findPatch", After<&GrainSolver::requireSolid, &GrainSolver::findPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false), "Index of the plate that layPatch has placed with the same arguments, -1 without.")
+		.def("findPatch", After<&GrainSolver::requireSolid, &GrainSolver::findPatch>::call, (py::arg("normal"), py::arg("low"), py::arg("high"), py::arg("friction") = 0., py::arg("bonded") = false, py::arg("strip") = 0., py::arg("seated") = false), "Return the index of the plate that layPatch has placed with the same arguments, or -1.")
 		.def("layJaw", After<&GrainSolver::requireSolid, &GrainSolver::layJaw>::call, (py::arg("towards"), py::arg("ratio"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.),
 			"Place a curved jaw against the lateral surface of a disc about the y axis, in a direction from this axis, over an angle [rad]. ratio: of its radius to the radius of the disc, at least 1; friction: coefficient [-]; strip: as in layPatch. Returns its index. Scale the masses afterwards.")
-		.def("findJaw", After<&GrainSolver::requireSolid, &GrainSolver::findJaw>::call, (py::arg("towards"), py::arg("ratio"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.), "Index of the plate that layJaw has placed with the same arguments, -1 without.")
+		.def("findJaw", After<&GrainSolver::requireSolid, &GrainSolver::findJaw>::call, (py::arg("towards"), py::arg("ratio"), py::arg("angle"), py::arg("friction") = 0., py::arg("strip") = 0.), "Return the index of the plate that layJaw has placed with the same arguments, or -1.")
 		.def("freePlate", After<&GrainSolver::requireSolid, &GrainSolver::freePlate>::call, (py::arg("plate")), "Allow a load to move a plate along its normal, for :yref:`PressureController`; the plate is fixed until then. Scale the masses afterwards.")
 		.def("setMachine", After<&GrainSolver::requireGrains, &GrainSolver::setMachine>::call, (py::arg("plate"), py::arg("stiffness")),
-			"Add the spring of a soft machine [N/m] behind a plate, along its normal. The loading then drives the crosshead, the other end of the spring.")
+			"Add the spring of a soft machine [N/m] behind a plate, along its normal. The loading then prescribes the displacement of the crosshead, the other end of the spring.")
 		.def("gaugePoints", After<&GrainSolver::requireGrains, &GrainSolver::gaugePoints>::call, (py::arg("first"), py::arg("second")),
-			"The nodes nearest to two positions, each on its side of the middle, and their distance [m], for :yref:`Gauge`.")
+			"Return the nodes nearest to two positions, each on its side of the middle, and their distance [m], for :yref:`Gauge`.")
 		.def("sectionNodes", After<&GrainSolver::requireGrains, &GrainSolver::sectionNodes>::call, (py::arg("place"), py::arg("direction"), py::arg("width")),
-			"The nodes in a band of a width [m] around a position along a direction, a unit vector, and their mean position along it [m], for :yref:`Gauge`.")
+			"Return the nodes in a band of a width [m] around a position along a direction, a unit vector, and their mean position along it [m], for :yref:`Gauge`.")
 		.def("fixTangential", After<&GrainSolver::requirePlane, &GrainSolver::fixTangential>::call, (py::arg("plate")), "Keep the point that a plate touches first from sliding along it, so that a disc does not roll.")
-		.def("nodePlaces", After<&GrainSolver::requireGrains, &GrainSolver::nodePlaces>::call, (py::arg("bonded") = false), "Nodes available for sets, (n,): all nodes of deformable grains and the centres of rigid grains, and their positions, present or when bonded, (n, 2) or (n, 3) [m].")
+		.def("nodePlaces", After<&GrainSolver::requireGrains, &GrainSolver::nodePlaces>::call, (py::arg("bonded") = false), "Return the nodes available for sets, (n,): all nodes of deformable grains and the centres of rigid grains, and their positions, (n, 2) or (n, 3) [m]. bonded: positions of the bonded state, not the present positions.")
 		.def("addNodeSet", After<&GrainSolver::requireGrains, &GrainSolver::addNodeSet>::call, (py::arg("nodes"), py::arg("x") = true, py::arg("y") = true, py::arg("z") = true),
 			"Fix nodes of nodePlaces along the named axes, z only in 3D, and return the index of their set.")
 		.def("turnNodeSet", After<&GrainSolver::requireGrains, &GrainSolver::turnNodeSet>::call, (py::arg("set"), py::arg("about") = py::object()),
-			"Allow a set to rotate about a point [m], or, in 2D with None, about its mean position, free to move: then only a moment acts.")
+			"Allow a set to rotate about a point [m]. With None, in 2D, it rotates about its mean position and is free to translate, so that only a moment acts.")
 		.def("moveNodeSet", After<&GrainSolver::requireGrains, &GrainSolver::moveNodeSet>::call, (py::arg("set"), py::arg("velocity"), py::arg("spin") = Vector3r(Vector3r::Zero())),
 			"Move a set from the next step on at a velocity [m/s, or m per step with scaled masses], and rotate it about its position at a spin [rad/s, or rad per step]; in 2D the third component of the velocity is the spin.")
-		.def("nodeSets", After<&GrainSolver::requireGrains, &GrainSolver::nodeSets>::call, "Each node set as a dictionary: nodes, fixed axes, whether it floats, position of its pivot [m], displacement [m], angle [rad], force on the specimen [N], moment about the pivot [N m], work that it has done [J].")
+		.def("nodeSets", After<&GrainSolver::requireGrains, &GrainSolver::nodeSets>::call, "Return each node set as a dictionary: nodes, fixed axes, whether it is free to translate (floats), position of its pivot [m], displacement [m], angle [rad], force on the specimen [N], moment about the pivot [N m], work done [J].")
 		.def("holdSide", After<&GrainSolver::requireGrains, &GrainSolver::holdSide>::call, (py::arg("side"), py::arg("x") = false, py::arg("y") = false, py::arg("z") = false),
 			"Fix a side of the outline along the named axes: nodes of deformable grains; of rigid grains the centres across the side, and the edges or the middles of the faces along it. Sides in 3D: 0 bottom, 1 right or lateral surface, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig controls the ends, give plane strain of a box.")
 		.def("addWall", After<&GrainSolver::requireGrains, &GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
-			"Place a rigid plate at a distance from the specimen, its normal pointing to it, which the corners of any grain, in 3D of the surface, may touch, and return its index. Scale the masses afterwards.")
-		.add_property("gravity", After<&GrainSolver::requireGrains, &GrainSolver::gravity>::call, After<&GrainSolver::requireGrains, &GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real ones [m/s^2]; z only in 3D. A 3D specimen from which it detaches a grain stops.")
-		.def("plates", After<&GrainSolver::requireGrains, &GrainSolver::plates>::call, "Each plate as a dictionary: side, normal, width [m], friction [-], whether it is bonded and pressed, position of its face [m], work that it has done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
+			"Place a rigid plate at a distance from the specimen, its normal pointing to the specimen, and return its index. The corners of any grain may touch it; in 3D only the corners on the surface. Scale the masses afterwards.")
+		.add_property("gravity", After<&GrainSolver::requireGrains, &GrainSolver::gravity>::call, After<&GrainSolver::requireGrains, &GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real [m/s^2]; z only in 3D. A 3D run stops if gravity detaches a grain.")
+		.def("plates", After<&GrainSolver::requireGrains, &GrainSolver::plates>::call, "Return each plate as a dictionary: side, normal, width [m], friction [-], whether it is bonded and pressed, position of its face [m], work done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
 		.def("mirrorBodies", After<&GrainSolver::requireGrains, &GrainSolver::mirrorBodies>::call, "Update YADE's view of the grains now, independently of mirrorPeriod: states, bonds, forces.")
-		.def("resetEnergyBalance", After<&GrainSolver::requireGrains, &GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now; the present energy becomes the initial one. In 3D only before the first step.")
-		.def("elasticConstants", After<&GrainSolver::requireGrains, &GrainSolver::elasticConstants>::call, "Young's modulus [Pa] and Poisson's ratio [-] of the unloaded grains by their linear solution: of a rectangle, or of a 3D specimen between smooth ends. The grains stay as they are.")
-		.def("energies", After<&GrainSolver::requireGrains, &GrainSolver::energies>::call, "Energies of the last step [J], by name. erased_energy has left with erased grains and bonds; boundary_work and initial_energy make up the sum of all others.")
-		.def("snapshot", After<&GrainSolver::requireGrains, &GrainSolver::snapshot>::call, "The state as plain arrays, by name (see the documentation's list of arrays): of what exists, and the record of erased bonds.")
-		.def("cracks", After<&GrainSolver::requireGrains, &GrainSolver::cracks>::call, "Numbers of cracked points: (tensile, shear). Points of erased bonds did not crack.")
-		.def("wallForces", After<&GrainSolver::requirePlane, &GrainSolver::wallForces>::call, (py::arg("grains")), "Nodes on which some grains act from outside of them, and their forces there, x and y, at the last step [N], for :yref:`ReleaseController`.")
-		.def("parting", After<&GrainSolver::requirePlane, &GrainSolver::parting>::call, "Largest growth of the distance between grains that were bonded to each other [m]: of any pair, and of standing pairs without a detached grain; loose: number of detached grains, without a path of contacts to a fixed part and without a pressure.")
-		.def("counts", After<&GrainSolver::requireGrains, &GrainSolver::counts>::call, "Numbers of grains, particles (what moves: grains or inner particles), contacts between and within grains as bonded, new contacts, nodes, triangles or tetrahedra, mesh groups and boundary edges; nothing erased counts.")
+		.def("resetEnergyBalance", After<&GrainSolver::requireGrains, &GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now on; the present energy becomes the initial energy. In 3D only before the first step.")
+		.def("elasticConstants", After<&GrainSolver::requireGrains, &GrainSolver::elasticConstants>::call, "Return Young's modulus [Pa] and Poisson's ratio [-] of the unloaded specimen from its linear elastic solution: of a rectangle, or of a 3D specimen between smooth ends. The grains do not move.")
+		.def("energies", After<&GrainSolver::requireGrains, &GrainSolver::energies>::call, "Return the energies of the last step [J] by name. erased_energy was removed with erased grains and bonds; boundary_work plus initial_energy is the sum of all other energies.")
+		.def("snapshot", After<&GrainSolver::requireGrains, &GrainSolver::snapshot>::call, "Return the state as plain arrays by name (see the list of arrays in the documentation): all present grains and bonds, and the record of erased bonds.")
+		.def("cracks", After<&GrainSolver::requireGrains, &GrainSolver::cracks>::call, "Return the numbers of cracked points: (tensile, shear). Points of erased bonds do not count as cracked.")
+		.def("wallForces", After<&GrainSolver::requirePlane, &GrainSolver::wallForces>::call, (py::arg("grains")), "Return the nodes of other grains on which these grains act, and the forces on them, x and y, at the last step [N], for :yref:`ReleaseController`.")
+		.def("parting", After<&GrainSolver::requirePlane, &GrainSolver::parting>::call, "Return the largest increase of the distance between grains that were bonded to each other [m]: of all pairs, and of standing pairs, which have no detached grain. The key for the number of detached grains is ``loose``: grains without a path of contacts to a fixed part and without a pressure.")
+		.def("counts", After<&GrainSolver::requireGrains, &GrainSolver::counts>::call, "Return the numbers of grains, particles (the moving bodies: grains or inner particles), contacts between and within grains in the bonded state, new contacts, nodes, triangles or tetrahedra, mesh groups and boundary edges, without erased objects.")
 		.def("overlaps", After<&GrainSolver::requireGrains, &GrainSolver::overlaps>::call, (py::arg("smallest") = 1e-3),
-			"Pairs of grains whose polygons overlap by more than a part of the smaller one, by name: grains (n, 2), area that both cover [m^2], part of the smaller grain [-], bonded (once, not on a joint), facing (bonded, and the faces lie as they did), closed: normal force of the pair over its stiffness and the thickness, the area that this accounts for [m^2]. In 3D the deepest overlap of grains without a common contact, which nothing separates: depth [m], of_diameter, over the mean diameter [-], grains, a pair, and pairs, how many overlap.")
-		.def("unbalanced", After<&GrainSolver::requireGrains, &GrainSolver::unbalanced>::call, "Ratio of the largest unbalanced force to the mean contact force [-], at the last measured step; forces on plates under a load count per grain before them.")
-		.def("crossingSteps", After<&GrainSolver::requireGrains, &GrainSolver::crossingSteps>::call, (py::arg("diameter")), "Steps of O.dt in which a wave crosses a disc, in 3D a ball, of the grains of a diameter [m] [-].")
+			"Return the pairs of grains whose polygons overlap by more than a share of the smaller grain, by name: grains, (n, 2); area of the overlap [m^2]; part, its ratio to the area of the smaller grain [-]; bonded, whether the pair was bonded and is not on a joint; facing, whether a bonded pair still has opposite faces; closed, normal force of the pair divided by its stiffness and the thickness, which is the expected overlap [m^2]. In 3D return the deepest overlap of grains without a common contact, which no force separates: depth [m]; of_diameter, its ratio to the mean diameter [-]; grains, the pair; pairs, number of overlapping pairs.")
+		.def("unbalanced", After<&GrainSolver::requireGrains, &GrainSolver::unbalanced>::call, "Return the ratio of the largest unbalanced force to the mean contact force [-] at the last measured step. The force on a plate under a load is divided by the number of grains before the plate.")
+		.def("crossingSteps", After<&GrainSolver::requireGrains, &GrainSolver::crossingSteps>::call, (py::arg("diameter")), "Return the number of steps of O.dt in which a wave crosses a disc, in 3D a sphere, of grains with a diameter [m] [-].")
 		.def("balance", After<&GrainSolver::requireGrains, &GrainSolver::balance>::call,
-			"Equilibrium of the total specimen at the last step, as a dictionary. mean_stress: mean of its Cauchy stress, (xx, yy, xy), tension positive [Pa]; "
+			"Return the equilibrium of the total specimen at the last step as a dictionary. mean_stress: mean of its Cauchy stress, (xx, yy, xy), tension positive [Pa]; "
 			"of rigid grains by the contact forces and branches. outside_stress: the mean stress in equilibrium with pressure, plates, fixed nodes and weight [Pa]. "
 			"missing_force: sum of the net forces on all free nodes and grains, (x, y) [N]. plate_share: largest share of the load of a plate that "
 			"the specimen does not carry [-]. In a wave the two stresses differ while unbalanced() is small.")
 		.def("clearPressure", After<&GrainSolver::requireGrains, &GrainSolver::clearPressure>::call, (py::arg("side")), "Remove the pressure from a side of the outline.")
-		.def("sideNodes", After<&GrainSolver::requirePlane, &GrainSolver::sideNodes>::call, (py::arg("side")), "(grain, node) pairs on a side of the outline, (n, 2).")
+		.def("sideNodes", After<&GrainSolver::requirePlane, &GrainSolver::sideNodes>::call, (py::arg("side")), "Return the (grain, node) pairs on a side of the outline, (n, 2).")
 	);
 	// clang-format on
 	DECLARE_LOGGER;

@@ -20,7 +20,7 @@ KIND = TestKind(
     name="biaxial",
     other_hint="; use triaxial for 3D specimens",
     order=3,
-    about="compression under the confinement, which acts on all sides first",
+    about="compression under a confining pressure, which acts on all sides first",
     confined=True,
     variants={
         "rectangle": Variant(

@@ -28,8 +28,8 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
 KIND = TestKind(
     name="sonic",
     order=9,
-    about="a plane pulse through a rectangle or a solid, from its bottom to its top, with real "
-    "masses and without damping, for the speed of its wave",
+    about="a plane pulse through a 2D or 3D specimen from its bottom to its top, with real "
+    "masses and without damping, for the wave velocity",
     variants={
         "rectangle": Variant(
             only_models=BLOCK_MODELS,
@@ -45,7 +45,7 @@ KIND = TestKind(
         Option("wave", "Pressure or shear wave", choices=WAVES, default=WAVES[0]),
         Option(
             SIDES,
-            "Sides: held perpendicular to the motion of the wave, or free as in a thin bar",
+            "Sides: fixed perpendicular to the motion of the wave, or free as in a thin bar",
             choices=(HELD, FREE),
             default=HELD,
             open=HELD,

@@ -36,8 +36,8 @@ _RATES = {
 KIND = TestKind(
     name="triaxial",
     order=10,
-    about="compression of a cylinder or a box under the confinement, which acts all around first; "
-    "of a box under two, which is true triaxial",
+    about="compression of a cylinder or a box under a confining pressure, which acts all around "
+    "first; two pressures on a box make the test true triaxial",
     variants={
         "cylinder": Variant(_RATES, static_models=("flexible", "rigid")),
         "box": Variant(_RATES, static_models=("flexible", "rigid")),
@@ -51,8 +51,8 @@ KIND = TestKind(
             "Pressure on the front and back faces of a box, along y",
             "Pa",
             _PRESSURE,
-            default="the confinement",
-            open="the confinement",
+            default="the confining pressure",
+            open="the confining pressure",
         ),
         END_FRICTION,
     ),

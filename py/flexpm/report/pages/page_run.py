@@ -169,10 +169,10 @@ def _told_tables(inputs: Table) -> Iterator[Rows]:
             for number, one in enumerate(inputs.get(name, ()))
         ]
         if rows:
-            yield Rows(title, ("number", word, "what it is, SI"), rows)
+            yield Rows(title, ("number", word, "definition, SI"), rows)
     if drive := inputs.get("drive"):
         rows = [(key, _told_value(value), "") for key, value in drive.items()]
-        yield Rows("Loading", ("what", "value, SI", ""), rows)
+        yield Rows("Loading", ("quantity", "value, SI", ""), rows)
 
 
 def _told(one: Table, word: str) -> str:

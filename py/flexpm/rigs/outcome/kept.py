@@ -239,7 +239,7 @@ class KeptTest:
         rig = self._rig()
         assert rig is not None
         if self.calls.inside and rig.saves_anywhere:
-            self._write(rig, f"{self._doing} is under way")
+            self._write(rig, f"{self._doing} is in progress")
         told: Table = {"calls": self.calls.made, "stages": rig.stages, "reason": self._reason}
         return told if self._frames is None else {**told, FRAMES: self._frames.remember()}
 
@@ -256,7 +256,7 @@ class KeptTest:
         }
         if ended:
             inputs["doubts"] = [
-                f"{UNFINISHED}: {ended}; what was reached is here",
+                f"{UNFINISHED}: {ended}; all results up to there are here",
                 *inputs["doubts"],
             ]
         result = result_so_far(rig, inputs)

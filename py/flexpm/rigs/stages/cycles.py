@@ -199,5 +199,5 @@ class PartCycles(PartPressures):
         if by == "load" and least < 0.0 and not self.may_pull:
             raise InputError(
                 f"{stage}: load = {least:g} N, must not be below 0: {self._driven_part} only "
-                "presses; lay it with bonded=True"
+                "presses; pass bonded=True to platen or support"
             )

@@ -115,7 +115,7 @@ class PartExcavation(PartCycles):
         lost = set(numbers[found.contains(places)].tolist())
         for part in self._all_parts:
             if isinstance(part, HeldNodes) and part.nodes and lost.issuperset(part.nodes):
-                raise InputError(f"{where}, contains {part}; hold other nodes")
+                raise InputError(f"{where}, contains {part}; pass other nodes to hold")
         state = self.built.snapshot()
         areas, pairs = state.grain_areas, state.contact_grains
         left = areas.copy()

@@ -66,10 +66,10 @@ class PartRest(PartStill):
         found, self._asked_force = self.balance(), None
         if not rests:
             raise SimulationError(
-                f"settle: reactions lack {self._missing_reaction:.2g} of the weight of "
-                f"{self.weight:.4g} N and motion is {found.motion:.2g}, must fall below {AT_REST}; "
-                f"{self._most_borne}; allow more transits, or with settle(moving=True) what "
-                "slides or topples may go on"
+                f"settle: missing reactions = {self._missing_reaction:.2g} of the weight of "
+                f"{self.weight:.4g} N, motion = {found.motion:.2g}, must be below {AT_REST}; "
+                f"{self._most_borne}; allow more transits, or pass moving=True if blocks may "
+                "still slide or topple"
             )
 
     def relax(self, *, transits: float = REST_CROSSINGS) -> None:

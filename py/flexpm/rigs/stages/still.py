@@ -158,7 +158,7 @@ class PartStill(PartStatics, GrainRig):
             f"{stage}: load = {self.stress * area:.6g} of {self._driven_part}, must come to "
             f"{targets[0] * area:.6g} within {AT_REST:g}"
             + (" and to rest" if until == "rest" else "")
-            + f"; the specimen does not carry it, or needs more crossings{self._borne}"
+            + f"; the specimen does not carry the load, or needs more transits{self._borne}"
         )
 
     def _begin_steering(

@@ -82,7 +82,7 @@ def required_loading(displacement: float, load: float | None) -> tuple[float, fl
     load = require_number("elastic: load", load, unit="N")
     if displacement != 0.0:
         raise InputError(
-            f"elastic: displacement = {displacement:g}, must be left out beside a load"
+            f"elastic: displacement = {displacement:g}, must be left out if a load is given"
         )
     return displacement, load
 
