@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 3: direct and indirect tension. A rectangle is pulled, a disc is split.
+"""Tutorial 3: direct and indirect tension of a rectangle and of a disc.
 
 PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/brazilian.py [FOLDER]
 """
@@ -21,9 +21,9 @@ split = flexpm.run("brazilian", disc, out=folder / "indirect")
 print(f"direct tension   {direct.peak_stress / 1e6:5.1f} MPa")
 print(f"Brazilian test   {split.peak_stress / 1e6:5.1f} MPa, 2 P / (pi D t)")
 ratio = flexpm.strength.tensile_ratio(direct.peak_stress, split.peak_stress)
-print(f"direct over indirect {ratio:.2f}")
+print(f"ratio of direct to indirect strength {ratio:.2f}")
 
 # A disc that splits cracks along the line between the plates.
-places = np.array([crack.x for crack in split.cracks])
-near = np.abs(places - disc.centres[:, 0].mean()) < 0.03 / 6
-print(f"{100 * near.mean():.0f} % of its cracked points lie in the middle third")
+positions = np.array([crack.x for crack in split.cracks])
+near = np.abs(positions - disc.centres[:, 0].mean()) < 0.03 / 6
+print(f"{100 * near.mean():.0f} % of the cracked points are in the middle third")

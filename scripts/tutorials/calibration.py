@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 9: calibration of a rock of one's own, then a test with the material that was found.
+"""Tutorial 9: calibration of your rock, then a test with the calibrated material.
 
-The rock and the keys that may change stand in calibration.toml. The command does all runs, and none
-of them twice: started again it goes on where it was.
+calibration.toml has the properties of the rock and the keys that may change. The command carries
+out all runs. If it is started again, it resumes and does not repeat finished runs.
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/calibration.py [FOLDER]
 """
@@ -16,12 +16,11 @@ import flexpm
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "my-rock")
 rock = Path(__file__).with_name("calibration.toml")
 
-# 1. The same as: flexpm calibrate calibration.toml --out my-rock
+# 1. This is the command: flexpm calibrate calibration.toml --out my-rock
 command = [sys.executable, "-P", "-m", "flexpm", "calibrate", str(rock), "--out", str(folder)]
 subprocess.run([*command, "--quiet"], check=True)
 
-# 2. The material is a file like any other. A packing that the calibration has not seen tells its
-#    worth.
+# 2. The result is a file of a material. A packing that was not used in the calibration tests it.
 material = flexpm.materials.load(folder / "my-rock.toml")
 specimen = flexpm.Specimen.rectangle(0.02, 0.04, thickness=0.08, seed=3)
 result = flexpm.run("uniaxial", specimen, material, "rigid", stop_ratio=0.9)

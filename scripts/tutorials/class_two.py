@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tutorial: uniaxial compression under control of the lateral strain.
 
-A brittle rock gives back more than its cracks take: as the lateral strain grows, the ends go back.
-Under control of the axial strain the same specimen collapses from its peak.
+A brittle rock releases more elastic energy than its cracks dissipate. The ends therefore move back
+while the lateral strain grows. Under control of the axial strain the specimen collapses at its
+peak.
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/class_two.py [FOLDER]
 """
 
 import sys
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 import matplotlib.pyplot as plt
 
 specimen = flexpm.Specimen.rectangle(0.04, 0.08, thickness=0.08, seed=1)
@@ -23,7 +24,7 @@ for control in ("axial", "lateral"):
     peak = stress.argmax()
     print(
         f"{control}: peak {stress[peak]:.1f} MPa at {strain[peak]:.2f} permille, "
-        f"the end at {strain[-1]:.2f}, {len(curve)} rows, {result.status}"
+        f"end at {strain[-1]:.2f}, {len(curve)} rows, {result.status}"
     )
 axial.set(xlabel="axial strain [‰]", ylabel="axial stress [MPa]")
 axial.legend(loc="upper left", fontsize=8)

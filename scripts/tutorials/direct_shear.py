@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial: direct shear of a joint, put together from parts.
+"""Tutorial: direct shear of a joint with a custom rig.
 
-Two boxes hold the halves of a rock of 48 mm x 24 mm. A lid presses on the upper half, the lower one
-is pushed along. The joint between them opens as it slides: its faces have teeth.
+Two boxes fix the halves of a specimen of 48 mm x 24 mm. A platen presses on the upper half, and the
+lower half is driven along the joint. The joint opens as it slides, because it dilates.
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/direct_shear.py [FOLDER]
 """
 
 import sys
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 import matplotlib.pyplot as plt
 
 width, height, pressure = 0.048, 0.024, 2e6
@@ -24,7 +24,7 @@ specimen = flexpm.Specimen.rectangle(width, height, thickness=0.02, seed=1)
 cut = specimen.with_joints({"teeth": [(0.0, height / 2), (width, height / 2)]})
 rig = flexpm.PartRig(flexpm.build(cut, rock), kind="shear")
 
-# Parts: both sides of each half, the floor, the lid.
+# Parts: both sides of each half, the bottom, and the platen on top.
 lower, upper = (
     [rig.support((x, y * height), 0.4 * height, bonded=True) for x in (0.0, width)]
     for y in (0.25, 0.75)
@@ -35,7 +35,7 @@ rig.drive(lower, (1, 0), against=upper, area=width * 0.02, strength=law["cohesio
 rig.gauge("slip", (width / 2, 0.6 * height), (width / 2, 0.4 * height), along=(1, 0))
 rig.displacement_of("dilation", lid, (0, 1))
 
-# The lid first, then the lower half's way of 0.1 mm.
+# The normal pressure first, then a displacement of the lower half of 0.1 mm.
 rig.press(lid, pressure)
 rig.load(flexpm.Loading(kind="waiting", max_strain=1e-4, stop_ratio=0.0))
 

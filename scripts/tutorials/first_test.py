@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 1: the first test. A small specimen of the paper's granite is compressed.
+"""Tutorial 1: the first test. Uniaxial compression of a small specimen of the paper's granite.
 
 PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/first_test.py [FOLDER]
 """
@@ -15,11 +15,11 @@ specimen = flexpm.Specimen.rectangle(width=0.02, height=0.04, thickness=0.08, se
 counts = specimen.statistics()
 print(f"{counts['grains']} grains, {counts['contacts']} contacts")
 
-# 2. Stiffness without a simulation: one solve of the bonded grains.
+# 2. Stiffness without a simulation, by one static solution of the bonded grains.
 found = flexpm.elastic(specimen)
-print(f"E = {found['youngs_modulus'] / 1e9:.1f} GPa by the solve")
+print(f"E = {found['youngs_modulus'] / 1e9:.1f} GPa by a static solution")
 
-# 3. The test. Its folder has the numbers, the record, the cracks and the pictures.
+# 3. The test. Its folder has the results, the record, the cracks and the figures.
 result = flexpm.run("uniaxial", specimen, out=folder)
 print(f"E = {result.youngs_modulus / 1e9:.1f} GPa in the test, status {result.status}")
 print(

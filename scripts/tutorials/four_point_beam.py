@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Four-point bending: a test of one's own with a folder, from which a killed script goes on."""
+"""Four-point bending: a custom test with a folder, from which a killed script resumes."""
 
 import flexpm
 
@@ -10,10 +10,10 @@ rig = flexpm.PartRig(flexpm.build(specimen, model="rigid"), out="beam", frames=1
 middle = 0.5 * length
 rollers = [rig.support((middle + x * span, 0.0), pinned=x < 0.0) for x in (-0.5, 0.5)]
 heads = [rig.support((middle + x * span, height)) for x in (-1.0 / 6.0, 1.0 / 6.0)]
-section = thickness * height**2 / span  # load over the stress at the bottom
+section = thickness * height**2 / span  # ratio of the load to the stress at the bottom
 rig.drive(heads, (0.0, -1.0), against=rollers, area=section, length=height)
 rig.gauge("sag", (middle, 0.0), (middle, height))
-rig.strain_to(2e-5)  # loaded a little, and unloaded
+rig.strain_to(2e-5)  # a small load, and unloading
 rig.strain_to(0.0)
 rig.load(flexpm.Loading(kind="waiting"))
 print(f"bending strength {1e-6 * rig.record['axial_stress'].max():.1f} MPa")

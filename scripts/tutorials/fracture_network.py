@@ -17,7 +17,7 @@ folder = Path(sys.argv[1] if len(sys.argv) > 1 else "fracture-network")
 seeds = range(1, 1 + int(sys.argv[2] if len(sys.argv) > 2 else 5))
 dips = [int(dip) for dip in (sys.argv[3] if len(sys.argv) > 3 else "0,30,60,90").split(",")]
 
-# 1. Rock and joints, which are weaker. A specimen of this size serves to show the way.
+# 1. Rock and joints, which are weaker. A specimen of this size is only an example.
 law = {
     "normal_stiffness": 1.8e13,
     "shear_stiffness": 5e12,
@@ -31,7 +31,7 @@ rock = flexpm.materials.load("augig-table7")
 rock = rock.with_set({f"joint.joints.{key}": value for key, value in law.items()})
 whole = flexpm.Specimen.rectangle(0.025, 0.05, thickness=0.02, diameters=(2e-3, 3e-3))
 
-# 2. The same network at each dip: a seed draws the same places and lengths.
+# 2. The same network at each dip: a seed generates the same positions and lengths.
 network = tomllib.loads(Path(__file__).with_suffix(".toml").read_text())
 strengths, slow = np.empty((len(dips), len(seeds))), 0
 for row, dip in enumerate(dips):
@@ -45,9 +45,9 @@ for row, dip in enumerate(dips):
     p21 = cut.network_intensities()["joints"]
     mean, scatter = strengths[row].mean() / 1e6, strengths[row].std(ddof=1) / 1e6
     told = f"dip {dip:2} degrees: strength {mean:5.1f} +- {scatter:4.1f} MPa"
-    print(f"{told}, P21 target {p21['target']:.0f}, of the last {p21['generated']:.0f} 1/m")
+    print(f"{told}, P21 target {p21['target']:.0f}, last network {p21['generated']:.0f} 1/m")
 
-print(f"slow enough, by the status: {slow} of {strengths.size} runs")
+print(f"status ok: {slow} of {strengths.size} runs")
 
 # 3. Mean and standard deviation of all networks over the dip.
 figure = Figure(figsize=(5.0, 3.4), layout="constrained")

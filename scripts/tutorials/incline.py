@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial: a block on an incline. It slides as Coulomb's law says, or does not slide at all.
+"""Tutorial: a block on an incline. It slides according to Coulomb's law, or is stable.
 
 PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/incline.py
 """
 
 import math
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 import yade
 
 side, friction, gravity, time = 0.016, 0.5, 9.81, 1e-3

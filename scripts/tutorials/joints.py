@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 7: joints. The strength of a rock with one weak plane, beside that of the plane alone.
+"""Tutorial 7: joints. Strength of a rock with a plane of weakness, compared with the closed form.
 
 PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/joints.py [FOLDER]
 """
@@ -14,7 +14,7 @@ import flexpm
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "joints")
 width, height = 0.03, 0.06
 
-# 1. The law of the joint stands in the material, beside that of the grains.
+# 1. The material has the law of the joint in addition to the law of the rock.
 law = {
     "normal_stiffness": 1.8e13,
     "shear_stiffness": 5e12,
@@ -36,7 +36,8 @@ for dip in (40, 50, 60):
     cut = whole.with_joints({"bedding": line})
     result = flexpm.run("uniaxial", cut, rock, "rigid", rate=0.5, out=folder / f"dip-{dip}")
 
-    # A plane slides where the shear stress exceeds its cohesion and its friction.
+    # The plane slides if the shear stress exceeds its cohesion and its friction.
     plane = 2 * law["cohesion"] / ((1 - law["friction"] / slope) * np.sin(2 * np.radians(dip)))
     found = result.peak_stress / 1e6
-    print(f"dip {dip} degrees: strength {found:5.1f} MPa, of the plane {plane / 1e6:5.1f} MPa")
+    told = f"strength {found:5.1f} MPa, plane of weakness {plane / 1e6:5.1f} MPa"
+    print(f"dip {dip} degrees: {told}")

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 6: a test of one's own. A specimen is loaded, unloaded and loaded again.
+"""Tutorial 6: a custom test. A specimen is loaded, unloaded and loaded again.
 
-The test is written once, for deformable grains between driven nodes, rigid grains between plates
-and YADE's bonded spheres. Each call of ``strain_to`` is a stage of the test.
+The same script tests deformable grains between driven nodes, rigid grains between plates, and
+YADE's bonded spheres. Each call of ``strain_to`` is a stage of the test.
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/load_unload_reload.py [FOLDER]
 """
@@ -10,7 +10,7 @@ and YADE's bonded spheres. Each call of ``strain_to`` is a stage of the test.
 import sys
 from pathlib import Path
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 import matplotlib.pyplot as plt
 import numpy as np
 from yade import O
@@ -23,12 +23,12 @@ specimen = flexpm.Specimen.rectangle(0.02, 0.04, thickness=0.08, seed=3)
 for model in ("flexible", "rigid", "jcfpm"):
     O.reset()
     rig = flexpm.rig(flexpm.build(specimen, model=model))
-    top = 0.3 * rig.reference_strain  # hardly a contact softens so early
+    top = 0.3 * rig.reference_strain  # nearly no contact softens before
     for name, strain in (("load", top), ("unload", 0.3 * top), ("reload", 1.2 * top)):
         first = len(rig.record)
         rig.strain_to(strain)
         axial, stress = (rig.record[column][first:] for column in ("axial_strain", "axial_stress"))
-        rows = (axial > 0.4 * top) & (axial < 0.9 * top)  # apart from where the ends turn round
+        rows = (axial > 0.4 * top) & (axial < 0.9 * top)  # without the turning points
         modulus = np.polyfit(axial[rows], stress[rows], 1)[0]
         print(f"{model:9} {name:7} E = {modulus / 1e9:6.2f} GPa")
     plt.plot(1e2 * rig.record["axial_strain"], 1e-6 * rig.record["axial_stress"], label=model)

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial: bending of a notched beam, put together from parts.
+"""Tutorial: bending of a notched beam with a custom rig.
 
-A saw cut of 10 mm weakens a beam of 112 mm x 24 mm on two rollers 96 mm apart. A pin presses on its
-middle until the load has fallen to a fifth of its peak; a gauge reads how far the notch opens.
+A beam of 112 mm x 24 mm with a notch of 10 mm is on two rollers with a span of 96 mm. A pin loads
+its middle until the load has dropped to a fifth of its peak. A gauge measures the notch opening.
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/notched_beam.py
 """
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 
 from flexpm.kinds.toughness import bending_toughness
 

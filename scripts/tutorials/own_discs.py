@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 5: own discs. Grains that grow coarser from the bottom to the top.
+"""Tutorial 5: user-supplied discs. The grains become coarser from the bottom to the top.
 
-flexpm packs its specimens itself; discs from elsewhere, a packing of YADE's or a table, become
-grains just as well: each disc gets its Laguerre cell.
+Discs from any source, such as a packing of YADE or a table, become grains: each disc gets its
+Laguerre cell.
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/own_discs.py [FOLDER]
 """
@@ -16,7 +16,7 @@ import flexpm
 folder = sys.argv[1] if len(sys.argv) > 1 else "own-discs"
 width, height = 0.03, 0.06
 
-# 1. Rows of discs, each a quarter smaller or larger than its neighbours, larger further up.
+# 1. Rows of discs of scattered sizes, which increase with the height.
 rng = np.random.default_rng(7)
 rows, y = [], 0.0
 while y < height:
@@ -29,16 +29,16 @@ while y < height:
 discs = np.concatenate(rows)
 discs = discs[discs[:, 1] < height]
 
-# 2. The cells between them fill the outline without gaps.
+# 2. The cells of the discs fill the outline without gaps.
 outline = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
 specimen = flexpm.Specimen.from_discs(discs[:, :2], discs[:, 2], outline, thickness=0.02)
 lower = specimen.centres[:, 1] < 0.5 * height
 print(f"{np.count_nonzero(lower)} grains below the middle, {np.count_nonzero(~lower)} above")
 
-# 3. Pulled, it breaks where fewer contacts share the load.
+# 3. In tension the specimen breaks where fewer contacts carry the load.
 result = flexpm.run("tension", specimen, out=folder)
 heights = np.array([crack.y for crack in result.cracks])
 print(f"strength {result.peak_stress / 1e6:.1f} MPa")
 print(
-    f"half of the cracked points lie above {1e3 * np.median(heights):.0f} of {1e3 * height:.0f} mm"
+    f"half of the cracked points are above {1e3 * np.median(heights):.0f} of {1e3 * height:.0f} mm"
 )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 12: own spheres. Grains that grow coarser from the bottom to the top of a box.
+"""Tutorial 12: user-supplied spheres. The grains of a box become coarser from bottom to top.
 
 PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/own_spheres.py [FOLDER]
 """
@@ -13,7 +13,7 @@ import flexpm
 folder = sys.argv[1] if len(sys.argv) > 1 else "own-spheres"
 width, height = 0.012, 0.024
 
-# 1. Layers of spheres about a grid, larger further up.
+# 1. Layers of spheres near the points of a grid. Their sizes increase with the height.
 rng = np.random.default_rng(7)
 layers, z = [], 0.0
 while z < height:
@@ -28,14 +28,14 @@ while z < height:
 spheres = np.concatenate(layers)
 spheres = spheres[spheres[:, 2] < height]
 
-# 2. The cells between them fill the box without gaps.
+# 2. The cells of the spheres fill the box without gaps.
 box = flexpm.Specimen.from_spheres(spheres, width=width, depth=width, height=height)
 print(f"{len(box.radii)} grains")
 
-# 3. Pulled, it breaks among the coarse grains.
+# 3. In tension the box breaks among the coarse grains.
 result = flexpm.run("tension", box, "augig3d-calibrated", out=folder)
 heights = np.array([crack.z for crack in result.cracks])
 print(f"strength {result.peak_stress / 1e6:.2f} MPa, status {result.status}")
 print(
-    f"half of the cracked points lie above {1e3 * np.median(heights):.0f} of {1e3 * height:.0f} mm"
+    f"half of the cracked points are above {1e3 * np.median(heights):.0f} of {1e3 * height:.0f} mm"
 )

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial: a bar that snaps back, pulled under control of the opening of its weak line.
+"""Tutorial: a bar that snaps back, in tension under control of the opening of its weak line.
 
-A bar of 72 mm with a weak line across, the rest unbreakable. It is 1.5 times as long as 2 E G /
-sigma_t^2, the length from which on its ends must go back as the line opens. Rollers keep it
-straight.
+A bar of 72 mm has a weak line across its middle; the rest is unbreakable. The bar is 1.5 times as
+long as 2 E G / sigma_t^2. Above this length the ends must move back while the line opens. Rollers
+keep the bar straight.
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/snap_back.py [FOLDER]
 """
 
 import sys
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -35,7 +35,7 @@ bar = flexpm.Specimen.rectangle(length, height, thickness, seed=1)
 bar = bar.with_joints({"weak": [(length / 2, 0.0), (length / 2, height)]})
 rig = flexpm.PartRig(flexpm.build(bar, rock, model=model))
 
-# Ends that pull, rollers along the bar, and a gauge of two grains across the line.
+# Bonded ends, rollers along the bar, and a gauge across the line with a length of two grains.
 left, right = (rig.platen(side, bonded=True, friction=1e6) for side in (3, 1))
 for side in (0, 2):
     rig.platen(side, bonded=True)
@@ -46,7 +46,7 @@ rig.drive(
 )
 rig.load(flexpm.Loading(kind="waiting", control="opening", stop_ratio=0.05))
 
-# What the bar stretches beyond its elastic compliance is the line's opening.
+# The opening of the line is the displacement of the ends minus the elastic extension of the bar.
 record = rig.record
 stress, way = record["axial_stress"], record["displacement"]
 peak = stress.argmax()
@@ -58,14 +58,15 @@ opened = way - compliance * stress
 first, last = strength / stiffness, 2 * energy / strength
 law = strength * np.clip(opened / first, 0, np.clip((last - opened) / (last - first), 0, 1))
 after = opened > 0.1 * last
-print(f"the ends went back from {way[peak] * 1e6:.1f} to {way[-1] * 1e6:.1f} um")
-print(f"off the law's line by {100 * np.max(np.abs(stress - law)[after]) / strength:.2f} %")
+deviation = np.max(np.abs(stress - law)[after]) / strength
+print(f"the ends moved back from {way[peak] * 1e6:.1f} to {way[-1] * 1e6:.1f} um")
+print(f"largest deviation from the law {100 * deviation:.2f} % of the strength")
 followed = np.abs(record["opening"] / record["set_point"] - 1)[1:] < 0.02
 print(f"within 2 % of the set point: {100 * followed.mean():.1f} % of the rows", *rig.warnings)
 
 _, (ends, opening) = plt.subplots(1, 2, figsize=(8, 3.4), sharey=True, layout="constrained")
 ends.plot(1e6 * way, stress / 1e6)
-ends.set(xlabel="way of the ends [µm]", ylabel="stress [MPa]")
+ends.set(xlabel="displacement of the ends [µm]", ylabel="stress [MPa]")
 opening.plot(1e6 * opened, stress / 1e6, label="bar")
 opening.plot(1e6 * opened, law / 1e6, "--", label="law of the line")
 opening.set(xlabel="opening of the line [µm]")

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tutorial 11: a thin section of two minerals, and weak boundaries between them.
 
-Draws the labels of a section, as an image of grains has them, makes a specimen of it, and
-compresses it with boundaries of feldspar and quartz as the rule of mixing has them, and weaker.
+The script generates the labels of a section as in an image of grains, makes a specimen of them, and
+compresses it twice: with boundaries between feldspar and quartz by the rule of mixing, and weaker.
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/thin_section.py [FOLDER]
 """
@@ -19,8 +19,8 @@ import flexpm
 
 FOLDER = Path(sys.argv[1] if len(sys.argv) > 1 else "thin-section")
 
-# 1. Labels: each pixel has the number of its grain, every third grain is quartz. A real section is
-#    a PNG file: flexpm specimen image FILE --pixel 2e-4 --phases FILE.
+# 1. Labels: each pixel has the index of its grain, every third grain is quartz. For a real section
+#    in a PNG file use: flexpm specimen image FILE --pixel 2e-4 --phases FILE.
 draw = np.random.default_rng(1)
 rows, columns = np.mgrid[:200, :100]
 places = draw.random((110, 2)) * (200, 100)
@@ -28,23 +28,24 @@ labels = cKDTree(places).query(np.column_stack((rows.ravel(), columns.ravel())))
 labels = labels.reshape(rows.shape)
 minerals = {grain: int(grain % 3 == 0) for grain in range(len(places))}
 
-# 2. The specimen: boundaries are smoothed, the grains keep the areas of their pixels.
+# 2. The specimen: boundaries are smoothed, and the grains keep the areas of their pixels.
 specimen = flexpm.Specimen.from_labels(
     labels, pixel=2e-4, thickness=0.08, minerals=minerals, edge=2e-3
 )
 quartz = specimen.tessellation.cell_areas[specimen.minerals == 1].sum()
 drawn = np.count_nonzero(labels % 3 == 0) * 2e-4**2
 print(
-    f"{specimen.grains.max() + 1} grains, quartz {1e6 * quartz:.2f} mm2 of {1e6 * drawn:.2f} drawn"
+    f"{specimen.grains.max() + 1} grains, quartz {1e6 * quartz:.2f} mm2, "
+    f"in the image {1e6 * drawn:.2f} mm2"
 )
 
-# 3. The rock, and the same with weak boundaries between its minerals. Factors of strengths take
-#    their squares of the fracture energies, so that weak boundaries are as brittle as strong ones.
+# 3. The rock, and the rock with weak boundaries between its minerals. A factor of a strength lowers
+#    the fracture energy by its square, so that weak and strong boundaries are equally brittle.
 rock = flexpm.materials.load(Path(__file__).with_name("two_minerals.toml"))
 pair = "interface.feldspar/quartz"
 weak = rock.with_set([f"{pair}.factor.{key}=0.35" for key in ("cohesion", "tensile_strength")])
 
-# 4. Both in compression, until a little past their peaks.
+# 4. Both in compression, until shortly after their peaks.
 for name, material in (("as mixed", rock), ("weak", weak)):
     folder = FOLDER / name.replace(" ", "-")
     result = flexpm.run("uniaxial", specimen, material=material, stop_ratio=0.8, out=folder)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial: a block on a base that it may topple from, half as wide as it is high.
+"""Tutorial: toppling of a block on an inclined base. Its width is half of its height.
 
 PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/toppling.py
 """
@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 import yade
 
 width, height, thickness = 0.5, 1.0, 0.1
@@ -26,7 +26,7 @@ for dip in (limit - 0.5, limit + 0.5):
     specimen = flexpm.Specimen.polygon(corners, thickness, diameters=(0.2, 0.3), seed=1)
     base = [tuple(-0.05 * along), tuple((width + 0.05) * along)]
     yade.O.reset()
-    # a hundred times the weight takes a tenth of the time
+    # with a hundred times the weight the motion takes a tenth of the time
     built = flexpm.build(
         specimen.with_joints({"base": [base]}), rock, "rigid", dynamic=True, gravity=981.0
     )
@@ -34,11 +34,11 @@ for dip in (limit - 0.5, limit + 0.5):
     rig.hold(where=lambda x, y: x * up[0] + y * up[1] < -0.08)  # noqa: B023
     try:
         rig.settle()
-        print(f"dip = {dip:.2f} degrees: stands, on {rig.weight:.0f} N")
+        print(f"dip = {dip:.2f} degrees: stable, with a weight of {rig.weight:.0f} N")
     except flexpm.SimulationError as error:
         print(f"dip = {dip:.2f} degrees: {error}")
         top = yade.O.bodies[built.solver.bodyIds[int((specimen.centres @ up).argmax())]].state
         x, y = top.pos[0], top.pos[1]
         while math.hypot(top.pos[0] - x, top.pos[1] - y) < math.radians(5.0) * height:
             built.run(1000)
-        print(f"  topples: by 5 degrees after {yade.O.iter * yade.O.dt:.3f} s")
+        print(f"  topples by 5 degrees after {yade.O.iter * yade.O.dt:.3f} s")

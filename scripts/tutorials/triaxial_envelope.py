@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 12: a triaxial envelope. One core under three pressures on its mantle.
+"""Tutorial 12: a triaxial envelope. One core under three pressures on its lateral surface.
 
 PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/triaxial_envelope.py [FOLDER]
 """
@@ -23,7 +23,7 @@ found = flexpm.compare(
 pressures = [case.confinement for case in found.cases]
 peaks = [result.peak_stress for result in found.results]
 for pressure, peak in zip(pressures, peaks, strict=True):
-    print(f"under {pressure / 1e6:.0f} MPa: peak {peak / 1e6:6.1f} MPa")
+    print(f"pressure {pressure / 1e6:.0f} MPa: peak {peak / 1e6:6.1f} MPa")
 line = flexpm.strength.mohr_coulomb(pressures, peaks)
 print(f"c = {line.cohesion / 1e6:.1f} MPa, phi = {line.friction_angle:.0f} degrees")
 print(f"open {folder}/report.html")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 12: true triaxial. A box under two pressures on its sides, of which one grows.
+"""Tutorial 12: true triaxial compression of a box. The larger lateral pressure increases.
 
 PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/true_triaxial.py [FOLDER]
 """
@@ -22,5 +22,5 @@ for second in (4e6, 8e6, 12e6):
         stop_ratio=0.9,
         out=folder / f"{second / 1e6:.0f}MPa",
     )
-    print(f"4 and {second / 1e6:2.0f} MPa: strength {result.peak_stress / 1e6:.0f} MPa")
+    print(f"pressures 4 and {second / 1e6:2.0f} MPa: strength {result.peak_stress / 1e6:.0f} MPa")
 print(f"open {folder}/12MPa/report.html")

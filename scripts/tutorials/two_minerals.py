@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tutorial 4: a rock of two minerals, what each does to stiffness and strength.
+"""Tutorial 4: stiffness, strength and cracks of a rock of two minerals.
 
-Takes the rock of two_minerals.toml, finds its Young's modulus between the bounds of Reuss and
-Voigt, compresses it beside the rock without quartz on the same packing, and says where it cracked.
+The script reads the rock of two_minerals.toml and compares its Young's modulus with the bounds of
+Reuss and Voigt. It compresses this rock and a rock without quartz on the same packing.
 
     PYTHONPATH=build/python /usr/bin/python3 scripts/tutorials/two_minerals.py [FOLDER]
 """
@@ -20,14 +20,14 @@ from flexpm.materials.mixing import mineral_materials
 
 FOLDER = Path(sys.argv[1] if len(sys.argv) > 1 else "two-minerals")
 
-# 1. The rock, and the same without its minerals: all feldspar.
+# 1. The rock, and a rock of feldspar only.
 rock = flexpm.materials.load(Path(__file__).with_name("two_minerals.toml"))
 feldspar = dataclasses.replace(rock, name="feldspar", minerals=())
 
-# 2. One packing. Which grain is quartz is drawn with the seed of the packing.
+# 2. One packing. The seed of the packing also determines which grains are quartz.
 specimen = flexpm.Specimen.rectangle(0.02, 0.04, thickness=0.08, seed=4)
 
-# 3. Young's modulus by one solve: that of the mixture lies between two bounds.
+# 3. Young's modulus by a static solution. The modulus of the mixture is between two bounds.
 moduli, shares = [], []
 for kind, material in zip(rock.minerals, mineral_materials(rock), strict=True):
     moduli.append(flexpm.elastic(specimen, material)["youngs_modulus"])
@@ -39,13 +39,13 @@ reuss, voigt = 1.0 / np.sum(shares / moduli), np.sum(shares * moduli)
 bounds = f"between {reuss / 1e9:.1f} and {voigt / 1e9:.1f}"
 print(f"both           E = {mixture / 1e9:5.1f} GPa, {bounds}")
 
-# 4. Both rocks in compression, until a little past their peaks: later, nearly everything cracks.
+# 4. Both rocks in compression, until shortly after their peaks, before nearly all points crack.
 for material in (feldspar, rock):
     folder = FOLDER / material.name
     result = flexpm.run("uniaxial", specimen, material=material, stop_ratio=0.8, out=folder)
     print(f"{material.name:13}  strength {result.peak_stress / 1e6:.0f} MPa")
 
-# 5. Cracks by the minerals on their two sides: quartz is stronger, so few are between quartz.
+# 5. Cracks by the minerals on both sides. Quartz is stronger: few cracks are between quartz grains.
 minerals = result.snapshot.grain_mineral
 kinds = np.sort(minerals[result.snapshot.contact_grains], axis=1)
 cracked = np.array([crack.contact for crack in result.cracks])

@@ -14,7 +14,7 @@ from functools import partial
 
 import numpy as np
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 import yade
 from strip_case import open_strip
 

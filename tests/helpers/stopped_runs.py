@@ -13,7 +13,7 @@ import flexpm
 from flexpm.runs import runner
 from flexpm.runs.checkpoint import Checkpoint
 
-import yade  # isort: skip  (flexpm tells Python where YADE is)
+import yade  # isort: skip  (flexpm makes YADE importable)
 
 
 class StopError(Exception):

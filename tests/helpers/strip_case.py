@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 import yade
 from yade import wrapper
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 
 from scenes import fresh
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 import yade
 
 INNER, OUTER = 0.02, 0.04

@@ -8,7 +8,7 @@ import json
 import numpy as np
 import pytest
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 from matplotlib.path import Path as Outline
 from refusals import refusal, refused_command
 from scenes import fresh

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..studies.comparison import Case
 
 
-@click.command(short_help="Several models on the same packings.")
+@click.command(short_help="Compare several models on the same packings.")
 @click.argument("test", metavar="TEST")
 @click.option(
     "--models",
@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     metavar="PA,...",
     show_default=True,
     help=f"Lateral pressures [Pa], for {' and '.join(names(lambda kind: kind.confined))}; two or "
-    "more give c, phi, sigma_ci and m_i.",
+    "more pressures yield c, phi, sigma_ci and m_i.",
 )
 @cli_options.material_options
 @shape_options
@@ -74,10 +74,10 @@ def compare(
     quiet: bool,
     **options: Any,
 ) -> None:
-    """Run a test with several models on one packing, or on several: one table, one picture.
+    """Run a test with several models on the same packing or packings; write a table and a figure.
 
-    TEST is as for run. All models have one material; the default is that of flexible grains. Each
-    run has a folder of its own below the output folder; what is finished there is not run again.
+    TEST is as for run. All models have the same material, by default the material of flexible
+    grains. Each run has its own folder below the output folder; finished runs are not repeated.
     """
     require_known("test", test, TESTS)
     kind = kind_of(test)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _UNITS = {"diameter": (1e3, "mm"), "length": (1e3, "mm"), "edge": (1e3, "mm")}
 
-#: From which on it is told how much more way contacts give than grains [-].
+#: Ratio of the compliances of contacts and grains above which a message is printed [-].
 _SOFT = 1.0
 #: Out of plane [m].
 _THICKNESS = 0.08
@@ -46,7 +46,7 @@ _smallest = click.option(
     type=Count(1),
     default=4,
     show_default=True,
-    help="Regions with fewer pixels go to a neighbour.",
+    help="Smallest number of pixels of a grain; smaller regions are merged with a neighbour.",
 )
 
 
@@ -56,7 +56,7 @@ _smallest = click.option(
 @click.option(
     "--phases",
     type=click.Path(path_type=Path),
-    help="TOML file: label or colour = mineral, or hole.  [default: labels are of grains]",
+    help="TOML file: label or colour = mineral, or hole.  [default: each label is a grain]",
 )
 @_thickness
 @_edge
@@ -73,9 +73,10 @@ def image(
     out: Path,
     quiet: bool,
 ) -> None:
-    """The grains of an image: PNG, TIFF, NPY or a .tesr file of Neper.
+    """Make the grains of an image: PNG, TIFF, NPY or a .tesr file of Neper.
 
-    Each label or colour is a grain, or with --phases a phase.
+    Each label or colour is a grain. With --phases each is a phase, and the connected regions of a
+    phase are grains.
     """
     from ..specimens.labels import picture
 
@@ -104,15 +105,15 @@ def image(
     type=Quantity("m", POSITIVE),
     default=1.0,
     show_default=True,
-    help="Length of the file's unit [m].",
+    help="Length of the unit of the file [m].",
 )
 @length_option("--thickness", _THICKNESS, "Thickness out of plane")
 @click.option(
     "--short-edge",
     type=Quantity("", Bounds(at_least=0.0, below=0.5)),
     metavar="F",
-    help="Collapse shorter edges, as a share of the mean diameter; 0: none [-]. In 2D, Laguerre "
-    f"cells only.  [default: 2D: {SHORT_EDGE:.3f}; 3D: {SOLID_SHORT_EDGE:.2f}]",
+    help="Collapse edges shorter than this share of the mean diameter; 0: none [-]. In 2D for "
+    f"Laguerre cells only.  [default: 2D: {SHORT_EDGE:.3f}; 3D: {SOLID_SHORT_EDGE:.2f}]",
 )
 @cli_options.out_option
 @cli_options.quiet_option
@@ -124,7 +125,7 @@ def tess(
     out: Path,
     quiet: bool,
 ) -> None:
-    """The cells of a tessellation of Neper, a .tess file; cells in space make a solid."""
+    """Make the cells of a tessellation of Neper, a 2D or 3D .tess file."""
     from ..specimens.files.neper_text import Words, tess_dimension
 
     given: Table = {} if short_edge is None else {"short_edge": short_edge}
@@ -170,7 +171,7 @@ def tess(
 @click.option(
     "--phases",
     type=click.Path(path_type=Path),
-    help="TOML file: phase of the map = mineral, or hole.  [default: each is a mineral]",
+    help="TOML file: phase of the map = mineral, or hole.  [default: each phase is a mineral]",
 )
 @_thickness
 @_edge
@@ -178,7 +179,7 @@ def tess(
 @cli_options.out_option
 @cli_options.quiet_option
 def ebsd(file: Path, thickness: float, out: Path, quiet: bool, **options: Any) -> None:
-    """The grains of a map of crystal orientations: .ctf, or .ang of a square or hexagonal grid."""
+    """Make the grains of an EBSD map: .ctf, or .ang of a square or hexagonal grid."""
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet):
         inputs.load_yade()

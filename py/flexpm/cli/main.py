@@ -78,9 +78,9 @@ def command() -> None:
     """
 
 
-@command.group(cls=Commands, short_help="Make a specimen, without a test.")
+@command.group(cls=Commands, short_help="Make a specimen without a test.")
 def specimen() -> None:
-    """Make a specimen without testing it: its picture and its statistics."""
+    """Make a specimen without a test, its plot and its statistics."""
 
 
 @specimen.command()
@@ -91,7 +91,7 @@ def specimen() -> None:
 @cli_options.out_option
 @cli_options.quiet_option
 def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
-    """A rectangular specimen, as in compression tests."""
+    """Make a rectangular specimen, as in compression tests."""
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
         made = inputs.made_plane(inputs.packed("rectangle", options), progress)
@@ -106,7 +106,7 @@ def rectangle(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
 @cli_options.out_option
 @cli_options.quiet_option
 def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
-    """A disc, as in Brazilian tests."""
+    """Make a disc, as in Brazilian tests."""
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
         made = inputs.made_plane(inputs.packed("disc", options), progress)
@@ -138,27 +138,28 @@ specimen.add_command(cli_solids.solid_half_disc)
 @click.option(
     "--scaling",
     is_flag=True,
-    help="Time also 10 and 40 times as many grains, with --shape box 7 times as many.",
+    help="Time also 10 and 40 times the number of grains; with --shape box 7 times the number.",
 )
 @click.option(
     "--large",
     is_flag=True,
-    help="With --scaling --shape box: time also 55 times as many grains, packed in minutes.",
+    help="With --scaling --shape box: time also 55 times the number of grains, whose packing takes "
+    "minutes.",
 )
 @click.option(
     "--json",
     "json_file",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="Write the times to this file, too.",
+    help="Write the times also to this file.",
 )
 @cli_options.quiet_option
 def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
     """Time a step of flexpm's models and of YADE's JCFpm and CohFrict on the same specimen.
 
-    With --shape box those of a solid, beside set-up and memory.
+    With --shape box the models of 3D specimens, with the time of the set-up and the memory.
 
-    scripts/studies/lammps_bench.py times LAMMPS' bonded particles, too.
+    scripts/studies/lammps_bench.py times the bonded particles of LAMMPS, too.
     """
     if json_file is not None:
         require_writable(json_file)
@@ -174,7 +175,7 @@ def bench(quiet: bool, json_file: Path | None, **options: Any) -> None:
 @cli_options.many_runs_options
 @cli_options.study_seeds_option
 def study(file: Path, out: Path | None, quiet: bool, report: bool, **options: Any) -> None:
-    """Do the runs of FILE that are not done yet; table and pictures are made from all."""
+    """Carry out the unfinished runs of FILE; write a table and figures of all runs."""
     from ..studies import figures, pages
     from ..studies import study as studies
 
@@ -197,7 +198,7 @@ def study(file: Path, out: Path | None, quiet: bool, report: bool, **options: An
 @command.command(short_help="Fit a material to a rock.")
 @cli_options.many_runs_options
 def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options: Any) -> None:
-    """Find the material that meets the targets of FILE; write it as a preset, with a picture."""
+    """Find the material that meets the targets of FILE; write it as a preset, with a figure."""
     from ..studies import (
         calibration_problem,
         calibration_report,
@@ -244,10 +245,10 @@ def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options
 @command.command(short_help="Rebuild report.html from the files of a run.")
 @click.argument("folder", type=click.Path(path_type=Path), metavar="DIR")
 def report(folder: Path) -> None:
-    """Make report.html in DIR again, the folder of a run, compare, study or calibrate.
+    """Rebuild report.html in DIR, the folder of a run, compare, study or calibrate.
 
-    It opens in any browser, without a network: inputs, results, curves, maps, warnings. The page of
-    a run that is under way or was stopped shows what the run has reached.
+    The report opens in any browser, without a network connection. It has inputs, results, curves,
+    maps and warnings. For a run that is in progress or was stopped it has the results up to now.
     """
     from ..studies import pages
 

@@ -119,7 +119,7 @@ seeds_options = combined(
         "--workers",
         type=Count(1),
         metavar="N",
-        help="Runs at a time, with --seeds.  [default: one per core]",
+        help="Number of simultaneous runs, with --seeds.  [default: one per core]",
     ),
 )
 threads_option = click.option(
@@ -172,7 +172,8 @@ joints_option = combined(
         "--name",
         "joint_name",
         metavar="KEY",
-        help="Property of the map that names the joint of a line.  [default: name, if all have it]",
+        help="Property of the map with the name of the joint of each line.  [default: name, if all "
+        "lines have it]",
     ),
     click.option(
         "--origin",
@@ -201,7 +202,7 @@ network_options = combined(
 #: Lines that cut a specimen.
 cut_options = combined(joints_option, network_options)
 disc_options = length_option(
-    "--diameter", SIZES["disc"]["diameter"], "Diameter of the disc, or of half of one"
+    "--diameter", SIZES["disc"]["diameter"], "Diameter of the disc or half disc"
 )
 material_options = combined(
     click.option(
@@ -269,13 +270,14 @@ many_runs_options = combined(
         "--out",
         type=click.Path(path_type=Path),
         metavar="DIR",
-        help="Folder.  [default: the file's name without .toml, in the working folder]",
+        help="Folder for the files.  [default: the name of FILE without .toml, in the working "
+        "folder]",
     ),
     click.option(
         "--workers",
         type=Count(1),
         metavar="N",
-        help="Runs at a time.  [default: one per core]",
+        help="Number of simultaneous runs.  [default: one per core]",
     ),
     click.option(
         "--scheduler",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands `flexpm run`, `rerun` and `elastic`: one test or solve. SI units."""
+"""The commands `flexpm run`, `rerun` and `elastic`: one test or static solution. SI units."""
 
 from __future__ import annotations
 
@@ -90,11 +90,11 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
 @cli_options.frames_options
 @cli_options.quiet_option
 def rerun(file: Path, out: Path, **options: Any) -> None:
-    """Repeat the run or the script's own test that has left FILE, its result.json (or its folder).
+    """Repeat the run or custom test of FILE, its result.json or its folder.
 
-    All that determined the run is in that file, of a script's test every call that it made. A
-    specimen that is no plain packing is read from grains.json beside it. At the end the numbers are
-    compared with those of FILE.
+    FILE has all inputs of a run, and all calls of a custom test. A specimen that is not a plain
+    packing is read from grains.json in the same folder. At the end the numbers are compared with
+    the numbers in FILE.
     """
     file = file / "result.json" if file.is_dir() else file
     before = load_json(file, "result")
@@ -135,11 +135,11 @@ def rerun(file: Path, out: Path, **options: Any) -> None:
     "--out",
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Write result.json into this folder, too.",
+    help="Write result.json into this folder.",
 )
 @cli_options.quiet_option
 def elastic(out: Path | None, **options: Any) -> None:
-    """Young's modulus and Poisson's ratio of a specimen by one static solve."""
+    """Compute Young's modulus and Poisson's ratio of a specimen with one static solution."""
     source = inputs.source(ELASTIC, options)
     chosen = inputs.material(options, source.plain.kind)
     spec = inputs.run_spec(ELASTIC, options, chosen, source)
@@ -150,7 +150,7 @@ def elastic(out: Path | None, **options: Any) -> None:
 def _repeat(
     file: Path, own: tuple[RunInputs, Material, list[Table]], folder: Path, options: Table
 ) -> None:
-    """Make a script's own test again and tell its outcome; arguments as for a simulation."""
+    """Repeat a custom test and print its results; arguments as for a simulation."""
     before = load_json(file, "result")
     output = Output(options["report"], options["frames"], options["film"])
     if options["discard_checkpoint"]:
@@ -178,12 +178,12 @@ def _repeat(
 
 
 def _tell_differences(file: Path, before: Table, folder: Path) -> None:
-    """Say whether the numbers of a run are those that it had before."""
+    """Print whether the numbers of a run are equal to its former numbers."""
     again = folder / "result.json"
     if not again.exists():
         return
     found = differences(before, load_json(again, "result"))
-    told = f"other than in {file}: {', '.join(found)}" if found else f"the same as in {file}"
+    told = f"different from {file}: {', '.join(found)}" if found else f"the same as in {file}"
     terminal.say(f"  numbers                 {told}")
 
 
@@ -194,17 +194,17 @@ def _simulate(
     folder: Path,
     options: Table,
 ) -> None:
-    """Run a test and tell its outcome.
+    """Run a test and print its results.
 
     Args:
         spec: The run.
         chosen: Its material.
         make: Makes its specimen.
-        folder: For its files.
+        folder: Folder for its files.
         options: Options of the command.
 
     Raises:
-        SimulationError: if it found no strength.
+        SimulationError: if the test has no strength.
     """
     output = Output(options["report"], options["frames"], options["film"])
     inputs.load_yade()
@@ -249,7 +249,7 @@ def _solve(
     folder: Path | None,
     quiet: bool,
 ) -> None:
-    """Find the elastic constants and tell them; arguments as for a simulation."""
+    """Compute and print the elastic constants; arguments as for a simulation."""
     if folder is not None:
         refuse_other_result(folder, spec)
     inputs.load_yade()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands that make solids, as ``flexpm specimen box``, and their options."""
+"""Commands that make 3D specimens, such as ``flexpm specimen box``, and their options."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def _told(shape: str, sizes: Mapping[str, float]) -> str:
 
 
 def _shape_options(shapes: Sequence[str], of: str) -> cli_options.Decorator:
-    """Options that make a specimen a solid of one of the shapes."""
+    """Return the options that select a 3D specimen of one of the shapes."""
     sizes = "; ".join(_told(shape, SIZES[shape]) for shape in shapes)
     for name, kind in KINDS.items() if len(shapes) > 1 else ():
         for shape in kind.solids:
@@ -48,17 +48,17 @@ def _shape_options(shapes: Sequence[str], of: str) -> cli_options.Decorator:
             metavar="|".join(shapes),
             help=f"Shape of a 3D specimen{of}. Default sizes [m]: {sizes}.  [default: the 2D shape "
             "of the test; with --depth solid-disc for a disc, solid-half-disc for half a disc, box "
-            "for a beam; cylinder for tests that exist in 3D only]",
+            "for a beam; cylinder for tests that are available in 3D only]",
         ),
-        length_option("--depth", _BOX["depth"], "Depth of a box, a disc or half of one, along y"),
+        length_option("--depth", _BOX["depth"], "Depth of a box, a disc or a half disc, along y"),
     )
 
 
-#: What makes the specimen of a test a solid.
+#: Options that select a 3D specimen for a test.
 shape_options = _shape_options(SOLIDS, f", in {', '.join(names(lambda kind: bool(kind.solids)))}")
-#: The same of the static solve alone.
+#: Options that select a 3D specimen for the static solution.
 solve_shape_options = _shape_options(KINDS[ELASTIC].solids, "")
-#: The same of a benchmark.
+#: Options that select a 3D specimen for a benchmark.
 bench_options = combined(
     click.option(
         "--shape",
@@ -83,7 +83,7 @@ def _disc_options(sizes: Mapping[str, float]) -> cli_options.Decorator:
 
 
 def _command(kind: str, sizes: cli_options.Decorator, about: str) -> click.Command:
-    """The command that makes a shape of given sizes."""
+    """Return the command that makes a shape of given sizes."""
 
     @click.command(kind, help=about)
     @sizes
@@ -96,17 +96,17 @@ def _command(kind: str, sizes: cli_options.Decorator, about: str) -> click.Comma
     return made
 
 
-box = _command("box", box_options, "A box of polyhedral grains.")
-cylinder = _command("cylinder", cylinder_options, "An upright cylinder of polyhedral grains.")
+box = _command("box", box_options, "Make a box of polyhedral grains.")
+cylinder = _command("cylinder", cylinder_options, "Make an upright cylinder of polyhedral grains.")
 solid_disc = _command(
     "solid-disc",
     _disc_options(SIZES["solid-disc"]),
-    "A disc of polyhedral grains, about the y axis.",
+    "Make a disc of polyhedral grains about the y axis.",
 )
 solid_half_disc = _command(
     "solid-half-disc",
     _disc_options(SIZES["solid-half-disc"]),
-    "The upper half of a disc of polyhedral grains, about the y axis.",
+    "Make the upper half of a disc of polyhedral grains about the y axis.",
 )
 
 

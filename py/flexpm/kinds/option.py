@@ -27,12 +27,12 @@ class Option:
     name: str
     help: str  #: a phrase, without unit and default
     unit: str = ""  #: empty for a number without one, and for a word
-    bounds: Bounds = POSITIVE  #: what the command takes; the test may be stricter
-    choices: tuple[str, ...] = ()  #: of a word
-    default: str = ""  #: what stands for it if it is not given, for the help
-    open: str = ""  #: what a page says if the run itself finds the value; empty: none has to
-    size: str = ""  #: size of the specimen that it is another name of
-    models: tuple[str, ...] = ()  #: that have it; none: all of the test
+    bounds: Bounds = POSITIVE  #: range that the command accepts; the test may be stricter
+    choices: tuple[str, ...] = ()  #: valid words
+    default: str = ""  #: description of the default value, for the help
+    open: str = ""  #: text on pages if the run determines the value; empty: it never does
+    size: str = ""  #: size of the specimen for which it is another name
+    models: tuple[str, ...] = ()  #: models with this option; empty: all models of the test
     whole: bool = False  #: a whole number
     metavar: str = ""  #: placeholder in the help of the command; empty: by choices or unit
 

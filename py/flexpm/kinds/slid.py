@@ -13,7 +13,7 @@ WAY = Option(
     "Displacement at which the test ends",
     "m",
     default="8 times the displacement at the reference strength",
-    open="by the reference strength",
+    open="from the reference strength",
 )
 #: At 0.16 a joint that begins to slide has carried 3 % too much; brittle ones are not measured.
 RATES = {

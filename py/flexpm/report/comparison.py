@@ -134,7 +134,7 @@ def envelope_picture(
             )
         _draw_doubtful(axes, runs)
         missing = sum(peak is None for _, peak, _ in runs)
-        note = f"{missing} of {len(runs)} runs have no peak and are left out" if missing else ""
+        note = f"{missing} of {len(runs)} runs have no peak and are not plotted" if missing else ""
         lines = [line for line in (label_of(title), note) if line]
         axes.set_title("\n".join(lines), fontsize=9.5, loc="left")
         axes.set_xlabel("confining pressure [MPa]")

@@ -82,9 +82,9 @@ def places_of(result: Result, strain: float | FloatArray) -> FloatArray:
 
 
 def volumes_of(result: Result) -> Volumes | None:
-    """Volumetric strains of a core, of the plane those of area; None where there are none.
+    """Return the volumetric strains of a core, or area strains in 2D; None if it has none.
 
-    Without a peak and moduli there is the total alone.
+    Without a peak and moduli only the total strain is returned.
     """
     record, solid = result.curve, result.tetrahedra is not None
     if not kind_of(result.test).is_core or not len(record):
@@ -101,21 +101,21 @@ def volumes_of(result: Result) -> Volumes | None:
             return VolumeLine(label, strain)
         return VolumeLine(f"{label}, {read}", strain, int(np.argmin(np.abs(deviator - stress))))
 
-    damage, begun = "at its largest: crack damage", "at its point: crack initiation"
+    damage, begun = "maximum: crack damage", "marker: crack initiation"
     lines = [line("total", total, result.crack_damage_stress, damage)]
     modulus, ratio = result.start_moduli
     if peak is not None and modulus is not None and ratio is not None:
         elastic = core.elastic_volumetric_strain(record, modulus, ratio, solid=solid)[:end]
         initiation = result.crack_initiation_stress_volumetric
-        lines.append(VolumeLine("of elasticity", elastic, dashed=True))
-        lines.append(line("of cracks", total - elastic, initiation, begun))
-    name = "volumetric strain" if solid else "strain of area"
+        lines.append(VolumeLine("elastic", elastic, dashed=True))
+        lines.append(line("cracks", total - elastic, initiation, begun))
+    name = "volumetric strain" if solid else "area strain"
     told = "" if peak is None else " up to the peak"
     return Volumes(name, f"{name.capitalize()}{told}{_state(result)}", lines)
 
 
 def _state(result: Result) -> str:
-    """Plane stress or strain of E and nu; empty for a solid and for grains without triangles."""
+    """Return whether E and nu are for plane stress or strain; empty in 3D and without triangles."""
     if result.tetrahedra is not None or not is_used("plane", result.model):
         return ""
     state = result.material.get("plane")
@@ -123,10 +123,10 @@ def _state(result: Result) -> str:
 
 
 def curve_picture(path: Path | str, result: Result) -> None:
-    """Draw stress and crack counts over strain, the line of Young's modulus, and the peak.
+    """Plot stress and crack counts over strain, the line of Young's modulus, and the peak.
 
-    A core has its volumetric strains below. A record with numbers beyond sense, of a run that has
-    diverged, is not drawn.
+    For a core the volumetric strains are below. The record of a diverged run, with numbers out of
+    any sensible range, is not plotted.
     """
     if not fits_a_picture(result.curve):
         remove_earlier(path)

@@ -154,32 +154,32 @@ def emission_table(result: Result) -> Rows | None:
 
 
 def _place(event: AnyEvent) -> str:
-    """Centre of an event: x, y and, in a solid, z."""
+    """Return the centre of an event: x, y and, in 3D, z."""
     places = [one for one in (event.x, event.y, event.z) if one is not None]
     return ", ".join(scaled(one, 1e3, "", 3) for one in places) + " mm"
 
 
 def _note(result: Result) -> str:
     text = (
-        f"{result.events} events are in events.csv. Points that crack within one mean grain and "
-        "the time that a fracture needs to cross it are one event; log10 E [J] = 1.5 M + 4.8, E "
-        "the damage energy."
+        f"{result.events} events are in events.csv. Points form one event if they crack within one "
+        "mean grain diameter and within the time that a fracture needs to cross it. "
+        "log10 E [J] = 1.5 M + 4.8, where E is the damage energy."
     )
     if result.b_value is None or result.b_value_error is None:
         return f"{text} No b value: {_without_line(result)}."
     return (
-        f"{text} b = {result.b_value:.2f} ± {result.b_value_error:.2f} from magnitude "
-        f"{result.completeness_magnitude:.1f} on."
+        f"{text} b = {result.b_value:.2f} ± {result.b_value_error:.2f} for magnitudes of at least "
+        f"{result.completeness_magnitude:.1f}."
     )
 
 
 def _without_line(result: Result) -> str:
-    """Why there is no b value."""
+    """Return the reason why there is no b value."""
     found = fits(_magnitudes(result.emission or []))
     if not found or found[0].number < FEWEST:
-        return f"fewer than {FEWEST} events from the magnitude of completeness on"
-    lines = (f"{one.b_value:.2f} ± {one.b_error:.2f} from {one.least:.1f} on" for one in found)
-    return f"their numbers follow no line, whose slope would be {', '.join(lines)}"
+        return f"fewer than {FEWEST} events above the magnitude of completeness"
+    lines = (f"{one.b_value:.2f} ± {one.b_error:.2f} above {one.least:.1f}" for one in found)
+    return f"the event counts are not on a line; its slope would be {', '.join(lines)}"
 
 
 def _magnitudes(events: Sequence[AnyEvent]) -> FloatArray:

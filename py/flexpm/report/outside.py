@@ -171,5 +171,5 @@ def _draw_section(figure: Figure, axes: Axes, snapshot: SolidSnapshot) -> None:
     draw_scale_bar(axes)
     axes.set_aspect("equal")
     axes.set_axis_off()
-    axes.set_title("section, with its cracks", fontsize=9.5)
+    axes.set_title("section with cracks", fontsize=9.5)
     figure.colorbar(triangles, ax=axes, shrink=0.7, label="stress along z [MPa], tension > 0")

@@ -17,11 +17,11 @@ if TYPE_CHECKING:  # the command shows its help without numpy
     from ..results.result import Result
     from ..results.strength import Envelope
 
-#: Stress of crack initiation over the peak that granites show [-], uniaxial and under a pressure,
-#: in 376 tests, and who has collected them.
+#: Ratio of the stress of crack initiation to the peak in 376 tests of granites [-], uniaxial and
+#: under a confining pressure, and the authors of the collection.
 _INITIATION = "Nicksiar and Martin 2013"
 _GRANITES, _CONFINED_GRANITES = (0.42, 0.47), (0.50, 0.54)
-#: Figures of a specimen: words, factor to the unit, unit. The rest is counts named by their keys.
+#: Statistics of a specimen: text, factor to the unit, unit. Other statistics are counts.
 _FIGURES = {
     "uncollapsed_contacts": ("contacts before short edges were removed", 1.0, ""),
     "boundary_edges": ("edges on the outline", 1.0, ""),
@@ -38,14 +38,18 @@ _FIGURES = {
     "fan_smallest_angle": ("smallest angle, fan", 1.0, "degrees"),
     "flipped_meshes": ("refined meshes with an edge flipped for a better angle", 1.0, ""),
     "fan_fallbacks": ("grains with a fan in place of a refined mesh", 1.0, ""),
-    "moved_centres": ("grains with a centre node moved off the disc's or sphere's centre", 1.0, ""),
-    "removed_discs": ("discs removed, hidden by others", 1.0, ""),
+    "moved_centres": (
+        "grains with a centre node that is not the centre of the disc or sphere",
+        1.0,
+        "",
+    ),
+    "removed_discs": ("discs removed because others hide them", 1.0, ""),
     "mean_diameter": ("mean diameter of discs or spheres", 1e3, "mm"),
     "boundary_faces": ("faces on the outline", 1.0, ""),
     "contact_corners": ("corners of all contacts", 1.0, ""),
     "contact_points": ("points of all contacts", 1.0, ""),
     "contacts_of_equal_points": (
-        "contacts with equal points instead of the points of the rule",
+        "contacts with equal points in place of the points of the rule",
         1.0,
         "",
     ),
@@ -53,12 +57,12 @@ _FIGURES = {
     "smallest_cell_volume": ("volume of the smallest grain", 1e9, "mm3"),
     "smallest_tetrahedron_volume": ("volume of the smallest tetrahedron", 1e9, "mm3"),
     "short_edges_left": ("short edges that could not be removed", 1.0, ""),
-    "removed_spheres": ("spheres removed, hidden by others", 1.0, ""),
+    "removed_spheres": ("spheres removed because others hide them", 1.0, ""),
 }
 
 
 def table(rows: Iterable[tuple[str, str]], title: str = "") -> str:
-    """Two columns of text: names and values."""
+    """Return two columns of text: names and values."""
     rows = list(rows)
     width = max((len(name) for name, _ in rows), default=0)
     lines = [f"  {name:<{width}}  {value}" for name, value in rows]
@@ -73,7 +77,7 @@ def scaled(value: float | None, factor: float, unit: str, digits: int = 4) -> st
 
 
 def result_table(result: Result) -> str:
-    """Short table of the outcome of a test."""
+    """Return a short table of the results of a test."""
     name = name_of(result.material.get("name", ""))
     seed = "" if result.seed is None else f", seed {result.seed}"
     title = f"{result.test}, {result.model} model, {name}{seed}"
@@ -81,7 +85,7 @@ def result_table(result: Result) -> str:
 
 
 def result_rows(result: Result) -> list[tuple[str, str]]:
-    """Names and values of the outcome of a test; the status is the last."""
+    """Return names and values of the results of a test; the status is the last row."""
     counts = f"{result.tensile_cracks} tensile, {result.shear_cracks} shear"
     rows = [
         ("grains, contacts", f"{result.grains}, {result.contacts}"),
@@ -114,22 +118,22 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
     if result.peak_load is not None:
         rows[5:5] = [
             ("peak load", scaled(result.peak_load, 1e-3, "kN")),
-            ("depth of the notch", scaled(result.notch_depth, 1e3, "mm")),
+            ("notch depth", scaled(result.notch_depth, 1e3, "mm")),
             ("fracture toughness", scaled(result.fracture_toughness, 1e-6, "MPa m^0.5")),
             ("fracture energy", scaled(result.fracture_energy, 1.0, "J/m2")),
         ]
     if result.residual_strength is not None:
         rows.insert(5, ("residual strength", scaled(result.residual_strength, 1e-6, "MPa")))
     if confined := pressures_text(result, "#.4g"):
-        rows.insert(1, ("confinement", confined))
+        rows.insert(1, ("confining pressure", confined))
     return rows
 
 
 def pressures_text(result: Result, digits: str = "g") -> str:
-    """Confining pressures of a test, of a box under two both, in the order of the options.
+    """Return the confining pressures of a test as text; two for a box under two pressures.
 
     Args:
-        result: Outcome of the test.
+        result: Result of the test.
         digits: Format of a pressure in MPa.
     """
     given = result.inputs or {}
@@ -142,7 +146,7 @@ def pressures_text(result: Result, digits: str = "g") -> str:
 
 
 def test_text(result: Result) -> str:
-    """Test, model and material in one line."""
+    """Return test, model and material in one line."""
     name = name_of(result.material.get("name", ""))
     pressures = pressures_text(result)
     confined = f" under {pressures}" if pressures else ""
@@ -150,7 +154,7 @@ def test_text(result: Result) -> str:
 
 
 def size_text(result: Result) -> str:
-    """Size of a specimen, its grains and its seed in one line."""
+    """Return the size of a specimen, its grains and its seed in one line."""
     specimen = (result.inputs or {}).get("specimen") or {}
     parts = []
     half = "half a " if "half" in specimen.get("kind", "") else ""
@@ -175,7 +179,7 @@ def size_text(result: Result) -> str:
 
 
 def _splitting(result: Result) -> list[tuple[str, str]]:
-    """Stress and place of the first cracks of a disc that is split, or at a notch."""
+    """Return stress and position of the first cracks of a Brazilian disc, or at a notch."""
     if result.first_crack_distance is None:
         return []
     notched = result.fracture_toughness is not None
@@ -185,7 +189,7 @@ def _splitting(result: Result) -> list[tuple[str, str]]:
 
 
 def _core(result: Result) -> list[tuple[str, str]]:
-    """Where the cracks of a core begin, beside what granites show: not fitted."""
+    """Return the stresses of crack initiation and damage of a core, with data of granites."""
     if not kind_of(result.test).is_core:
         return []
     deviator = (result.peak_stress or 0.0) - (result.confinement or 0.0)
@@ -206,7 +210,7 @@ def _core(result: Result) -> list[tuple[str, str]]:
 
 
 def _overlap(result: Result) -> list[tuple[str, str]]:
-    """How far grains of a solid that nothing keeps apart lie on each other."""
+    """Return the deepest overlap of 3D grains without a common contact."""
     if result.largest_overlap is None:
         return []
     share = scaled(result.largest_overlap, 100.0, "% of a diameter", 2)
@@ -214,7 +218,7 @@ def _overlap(result: Result) -> list[tuple[str, str]]:
 
 
 def _rates(result: Result) -> list[tuple[str, str]]:
-    """Rates of a test that was loaded several times, and the last two peaks."""
+    """Return the rates of a test that was loaded several times, and the last two peaks."""
     if not result.rates:
         return []
     peaks = ", ".join(scaled(one["peak_stress"], 1e-6, "") for one in result.rates[-2:])
@@ -282,7 +286,7 @@ def envelope_table(envelopes: Sequence[Envelope], rock: Reference | None) -> str
 
 
 def statistics_table(found: Table) -> str:
-    """Table of what can be counted and measured in a specimen: lengths in mm, angles in degrees."""
+    """Return the table of the statistics of a specimen: lengths in mm, angles in degrees."""
     rows = []
     for name, value in found.items():
         words, factor, unit = _FIGURES.get(name, (words_of(name), 1.0, ""))
@@ -306,13 +310,13 @@ def statistics_table(found: Table) -> str:
 
 
 def _share(share: float) -> str:
-    """Name of a quantile."""
+    """Return the name of a quantile."""
     names = {0.0: "shortest", 0.5: "median", 1.0: "longest"}
     return names.get(share, f"{100.0 * share:g} % are shorter than")
 
 
 def elastic_table(found: dict[str, float]) -> str:
-    """Table of the elastic constants found by a direct solve."""
+    """Return the table of the elastic constants of a static solution."""
     rows = [
         ("Young's modulus", scaled(found["youngs_modulus"], 1e-9, "GPa", 5)),
         ("Poisson's ratio", scaled(found["poissons_ratio"], 1.0, "", 4)),

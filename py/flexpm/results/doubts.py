@@ -59,54 +59,54 @@ LARGEST_PEAK_CHANGE = 0.01
 LARGEST_ENERGY_ERROR = 0.01
 #: Share of the length of a joint's lines in the specimen that may lie on earlier joints [-].
 LARGEST_TAKEN = 0.1
-#: Ratio of a softening length to that of the rock, or of the mixing rule, without a warning [-].
+#: Ratio of a softening length to the length of the rock, or of the mixing rule, without a warning.
 LARGEST_SOFTENING_RATIO = 2.0
-#: Joints that one warning names.
+#: Number of joints that one warning names.
 _NAMED_JOINTS = 5
-#: Difference from a set point by which a row has missed it [-].
+#: Relative difference from a set point above which a row misses the set point [-].
 SET_POINT_OFF = 0.02
-#: Part of the rows that may miss their set point [-].
+#: Largest share of rows that miss their set point, without a warning [-].
 MOST_MISSED = 0.1
-#: Kinetic energy over the work that is none [-], by place: explicit solutions that are to be
-#: quasi-static keep it below 0.05 to 0.1. Tests end in mid-fall: with up to 0.06 under a pressure,
-#: which would feed a flight, and up to 0.07 without; halves of a disc part with up to 0.14 of a
-#: work that was elastic. At a peak all have less than 0.001.
+#: Ratio of kinetic energy to work without a warning [-], by position in the test. Explicit
+#: quasi-static solutions keep it below 0.05 to 0.1. Tests end while the stress drops: at ratios up
+#: to 0.06 under a pressure, which would accelerate detached grains, and up to 0.07 without; halves
+#: of a disc separate at ratios up to 0.14 of an elastic work. At a peak all are below 0.001.
 LARGEST_KINETIC_SHARES = {
     "at the peak": 0.02,
     "at the end": 0.2,
     "at the end under a pressure": 0.1,
 }
-#: Growth of a distance between neighbours that is none, in mean diameters [-]. Specimens that are
-#: crushed by 3 % under a confinement have up to 1.6.
+#: Increase of the distance between neighbours without a warning [mean diameters]. Specimens that
+#: are crushed by 3 % under a confining pressure reach 1.6.
 LARGEST_PARTING = 2.0
-#: Mean grains across a specimen, or the ligament of a beam, that are not few [-]: standards of
-#: rock testing ask for ten, and for six where grains are coarse.
+#: Number of mean grains across a specimen, or the ligament of a beam, without a warning [-].
+#: Standards of rock testing require ten, or six for coarse grains.
 FEWEST_GRAINS_ACROSS = 6.0
-#: Difference of Poisson's ratio from the elastic one that is none [-].
+#: Relative difference of Poisson's ratio from the elastic ratio without a warning [-].
 LARGEST_POISSON_CHANGE = 0.05
-#: Median distance of the first cracks of a split disc from its middle, over the radius, at which it
-#: splits by tension [-]: discs of ten grains across do with up to 0.63, and cracks at plates lie
-#: at 0.77 and above.
+#: Ratio of the median distance of the first cracks from the middle of a disc to the radius, up to
+#: which it splits by tension [-]. Discs of ten grains across reach 0.63; cracks at plates are at
+#: 0.77 and above.
 LARGEST_CRACK_DISTANCE = 0.7
-#: The same from the front of a notch, over the ligament [-]: the head lies at 1, a roller of the
-#: half disc at 1.6.
+#: Ratio of the median distance of the first cracks from the notch front to the ligament [-]. The
+#: loading head is at 1, a roller of the half disc at 1.6.
 LARGEST_NOTCH_DISTANCE = 0.5
-#: Grains of a solid that nothing keeps apart lie on each other by more than this [diameters].
+#: Overlap of 3D grains without a common contact, without a warning [diameters].
 LARGEST_OVERLAP = 0.02
-#: Line about a pulse that has not passed both sections in one piece.
+#: Warning of a pulse that has not passed both sections undivided.
 NO_PULSE = (
-    "a section still moves at the end of the test, or the upper one has hardly moved: cracks or "
-    "joints have scattered the pulse, which has no speed"
+    "a section still moves at the end of the test, or the upper section has barely moved: cracks "
+    "or joints have scattered the pulse, whose speed cannot be measured"
 )
 
 
 def of_inputs(inputs: Table) -> list[str]:
-    """Inputs of a run that are surely in other units, or of another dimension or model.
+    """Warn of inputs that are probably in other units, or for another dimension or model.
 
-    In addition, damping that gravity works against.
+    Warn also of damping of motion under gravity.
 
     Args:
-        inputs: As result.json has them.
+        inputs: Inputs as in result.json.
     """
     material = inputs["material"]
     specimen = inputs["specimen"]
@@ -117,25 +117,25 @@ def of_inputs(inputs: Table) -> list[str]:
     lines += of_softening(material)
     sizes = {name: specimen[name] for name in _SIZES if specimen.get(name) is not None}
     lines += of_lengths(sizes, specimen.get("diameters") or ())
-    solid = "thickness" not in specimen  # 2D specimens alone have one
+    solid = "thickness" not in specimen  # only 2D specimens have a thickness
     lines += of_material(material, inputs["model"], solid=solid)
     lines += of_weak_joints(inputs)
-    damping = inputs.get("damping")  # 0.7 before it could be chosen
+    damping = inputs.get("damping")  # 0.7 in results without this option
     return lines + of_gravity(inputs.get("gravity") or 0.0, 0.7 if damping is None else damping)
 
 
 def of_softening(material: Table) -> list[str]:
-    """Minerals and interfaces whose lowered strength makes their softening long.
+    """Warn of minerals and interfaces whose lower strength makes their softening long.
 
     Args:
         material: Effective parameters, as result.json has them.
     """
     return [
         f"{one.contact}: softening length 2 G / {one.strength} = {1e6 * one.length:.3g} um, "
-        f"is {one.ratio:.3g} times the usual one (limit "
-        f"{LARGEST_SOFTENING_RATIO:g}), as {one.strength} is lower and the fracture energy is not: "
-        f"points soften early and crack late; lower {ENERGY_OF[one.strength]} by the square of the "
-        f"ratio of strengths, as factor.{one.strength} of an interface does"
+        f"is {one.ratio:.3g} times the usual length (limit "
+        f"{LARGEST_SOFTENING_RATIO:g}), because {one.strength} is lower and the fracture energy is "
+        f"not: points soften early and crack late; lower {ENERGY_OF[one.strength]} by the square "
+        f"of the ratio of strengths, as factor.{one.strength} of an interface does"
         for one in long_softening(material, LARGEST_SOFTENING_RATIO)
     ]
 
@@ -146,7 +146,7 @@ def of_weak_joints(inputs: Table) -> list[str]:
     Args:
         inputs: Inputs as in result.json.
     """
-    if Stage.LOAD not in kind_of(inputs["test"]).stages:  # what slides does so at any rate
+    if Stage.LOAD not in kind_of(inputs["test"]).stages:  # joints slide at any rate there
         return []
     lines = []
     for joint in inputs["material"].get("joints", ()):
@@ -157,9 +157,9 @@ def of_weak_joints(inputs: Table) -> list[str]:
         ]
         if shares and inputs["rate"] > LARGEST_RATE_OF_JOINTS * min(shares):
             lines.append(
-                f"joint {joint['name']}: strength = {100.0 * min(shares):.2g} % of the rock's; the "
-                f"load may be some per cent too large at --rate {inputs['rate']:g}; compare "
-                f"with --rate {0.25 * inputs['rate']:g}"
+                f"joint {joint['name']}: strength = {100.0 * min(shares):.2g} % of the strength of "
+                f"the rock; the load may be a few per cent too large at --rate "
+                f"{inputs['rate']:g}; compare with --rate {0.25 * inputs['rate']:g}"
             )
     return lines
 
@@ -181,22 +181,22 @@ def of_gravity(gravity: float, damping: float) -> list[str]:
 
 
 def of_overlap(part: float) -> list[str]:
-    """Grains of a solid that were never neighbours and lie on each other.
+    """Warn of overlapping 3D grains that were never neighbours.
 
     Args:
-        part: The deepest of these overlaps over the mean diameter [-].
+        part: Ratio of the deepest of these overlaps to the mean diameter [-].
     """
     if not part > LARGEST_OVERLAP:
         return []
     return [
         f"overlap = {100.0 * part:.3g} % of a diameter, of grains that were never neighbours and "
-        f"do not meet, is above {100.0 * LARGEST_OVERLAP:g} %; results after the peak are not "
+        f"have no contact, is above {100.0 * LARGEST_OVERLAP:g} %; results after the peak are not "
         "valid, lower the rate or stop at the peak (--stop-ratio)"
     ]
 
 
 def of_lengths(sizes: Mapping[str, float], diameters: Sequence[float]) -> list[str]:
-    """Lengths that are probably in another unit, in one line.
+    """Warn of lengths that are probably in another unit, in one line.
 
     Args:
         sizes: Sizes of the specimen by their names [m].
@@ -230,7 +230,7 @@ def of_material(material: Table, model: str, *, solid: bool) -> list[str]:
     return [
         f"material = {name_of(name)}, was calibrated in {given['dimension']} for model "
         f"{given['model']}, the run is {dimension_of(solid=solid)} with model {model}: strength "
-        f"and elastic constants may be far from the rock's; {remedy}calibrate for this run"
+        f"and elastic constants may differ much from the rock; {remedy}calibrate for this run"
     ]
 
 
@@ -323,12 +323,12 @@ def of_rates(loadings: Sequence[Table], status: str) -> list[str]:
 
 
 def of_motion(kinetic_shares: Mapping[str, float], parting: float | None) -> list[str]:
-    """What moves too fast or too far for a test that is to be quasi-static.
+    """Warn of motion that is too fast or too large for a quasi-static test.
 
     Args:
-        kinetic_shares: Kinetic energy over the work [-], by the places of
+        kinetic_shares: Ratio of kinetic energy to work [-], by the positions of
             ``LARGEST_KINETIC_SHARES``.
-        parting: Largest growth of the distance between grains once bonded, in mean diameters [-].
+        parting: Largest increase of the distance between bonded grains [mean diameters].
     """
     lines = []
     for place, share in kinetic_shares.items():
@@ -340,9 +340,9 @@ def of_motion(kinetic_shares: Mapping[str, float], parting: float | None) -> lis
             )
     if parting is not None and parting > LARGEST_PARTING:
         lines.append(
-            f"largest_separation = {parting:.3g} mean diameters between grains once bonded, is "
-            f"above {LARGEST_PARTING:g}: grains have flown off; read strains and pictures up to "
-            "there, or stop earlier (--stop-ratio)"
+            f"largest_separation = {parting:.3g} mean diameters between formerly bonded grains, is "
+            f"above {LARGEST_PARTING:g}: grains have left the specimen; strains and figures are "
+            "valid only before, stop earlier (--stop-ratio)"
         )
     return lines
 
@@ -357,8 +357,8 @@ def of_regained(first: float, largest: float) -> str:
     """
     return (
         f"largest stress = {1e-6 * largest:.4g} MPa, is above a first peak of {1e-6 * first:.4g} "
-        "MPa that was left by 10 %: interlocked broken grains carry it; --stop-ratio 0.9 ends at "
-        "the first peak"
+        "MPa, after which the stress dropped by 10 %: interlocked broken grains carry it; "
+        "--stop-ratio 0.9 ends at the first peak"
     )
 
 
@@ -402,19 +402,19 @@ def of_poissons_ratio(ratio: float | None, elastic: float | None) -> list[str]:
         return []
     return [
         f"poissons_ratio = {ratio:.3g}, differs by {100.0 * abs(ratio / elastic - 1.0):.2g} % from "
-        f"elastic_poissons_ratio = {elastic:.3g}: points soften below 25 % of the peak; use the "
-        "latter for the elastic rock"
+        f"elastic_poissons_ratio = {elastic:.3g}: points soften below 25 % of the peak; use "
+        "elastic_poissons_ratio for the elastic rock"
     ]
 
 
 def of_first_cracks(
     distance: float | None, first: float | None, peak: float | None, *, notched: bool = False
 ) -> list[str]:
-    """Warning of first cracks far from the place where the formula of the test assumes them.
+    """Warn of first cracks far from the position that the formula of the test assumes.
 
     Args:
-        distance: Median distance of the first cracks from the middle of a split disc over the
-            radius, or from the front of a notch over the ligament [-].
+        distance: Median distance of the first cracks from the middle of a disc, as a ratio to the
+            radius, or from the front of a notch, as a ratio to the ligament [-].
         first: Axial stress at the first crack [Pa].
         peak: Axial stress at the peak [Pa].
         notched: The specimen has a notch.
@@ -440,14 +440,14 @@ def of_first_cracks(
 
 
 def of_bend(bend: float) -> str:
-    """What a joint that bends to the grains (D35) says about the strength.
+    """Warn of the effect on the strength of a joint that deviates from its line (D35).
 
     Args:
-        bend: Its largest distance from its lines [m].
+        bend: Largest distance of the joint from its lines [m].
     """
     return (
-        f"joint_deviation = {bend:.3g} m, a joint bends to the grains and catches as it slides; "
-        "take another seed or smaller grains"
+        f"joint_deviation = {bend:.3g} m, a joint deviates from its line and interlocks as it "
+        "slides; use another seed or smaller grains"
     )
 
 
@@ -455,7 +455,7 @@ def of_cuts(cuts: Table) -> list[str]:
     """Warn of lines of joints that are not cut, in one line.
 
     Args:
-        cuts: Outcome of the cuts of each joint, as in result.json.
+        cuts: Result of the cuts of each joint, as in result.json.
     """
     found = []
     for name, cut in cuts.items():
@@ -498,7 +498,7 @@ def of_divergence(step: int, reason: str = "") -> str:
         "a number was not finite or 3D faces were inverted; lower the rate or check the driven "
         "parts"
     )
-    return f"the record ends before step {step}: {found}"
+    return f"the record ends before step {step}: {found}; earlier rows are valid"
 
 
 def of_lost_gauge(name: str) -> str:

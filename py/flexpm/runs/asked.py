@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 _FOLLOWING = ("start", "loading", "damping")
 _NESTED = ("specimen", "material", "own")
 #: What repeats a test that says all of itself.
-_AGAIN = ("From its one file:", "flexpm rerun result.json")
+_AGAIN = ("From its result file:", "flexpm rerun result.json")
 #: What stands for None: an input that the loading finds, and the first kind of control.
 _OPEN = {
     **{name: one.open for name, one in DECLARED.items() if one.open},

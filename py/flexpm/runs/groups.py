@@ -58,7 +58,7 @@ def declared(usual: Usual, told: str, **traits: Unpack[_Told]) -> Usual:
 
 
 def options_of(group: type) -> dict[str, Option]:
-    """Options that the fields of a group declare, by name."""
+    """Return the options that the fields of a group declare, by name."""
     return {
         one.name: replace(one.metadata["option"], name=one.name)
         for one in fields(group)
@@ -67,7 +67,7 @@ def options_of(group: type) -> dict[str, Option]:
 
 
 def _by_test(value: Callable[[TestKind], float], option: str) -> str:
-    """A default and the tests that have another one."""
+    """Return a default and the tests with another default, as text."""
     found: dict[float, list[str]] = {}
     for name, kind in KINDS.items():
         if option not in kind.without:
@@ -80,7 +80,7 @@ def _by_test(value: Callable[[TestKind], float], option: str) -> str:
 
 @dataclass(frozen=True)
 class GrainOptions:
-    """How the grains are modelled."""
+    """Options of the model of the grains."""
 
     model: str = declared("flexible", "Model of the grains", choices=MODELS)
     points: int = declared(
@@ -91,8 +91,8 @@ class GrainOptions:
     )
     interaction_range: float | None = declared(
         None,
-        "For jcfpm and cohfrict: bond spheres nearer than this multiple of the sum of their radii, "
-        "too, 1 to 2 [-]",
+        "For jcfpm and cohfrict: bond also spheres whose distance is below this multiple of the "
+        "sum of their radii, 1 to 2 [-]",
         bounds=RANGE,
         default="only neighbours",
         metavar="G",
@@ -101,7 +101,7 @@ class GrainOptions:
 
 @dataclass(frozen=True)
 class LoadingOptions:
-    """How a test is loaded, and when it ends."""
+    """Options of the loading and of the end of a test."""
 
     confinement: float = declared(
         0.0,
@@ -111,15 +111,15 @@ class LoadingOptions:
     )
     rate: float = declared(
         1.0,
-        "Factor on the loading rate [-]; auto: 1, and half of it again and again, up to "
-        f"{HALVINGS} times, until the test is slow enough",
+        "Factor on the loading rate [-]; auto: starts at 1 and halves the factor, up to "
+        f"{HALVINGS} times, until the test is quasi-static",
         bounds=POSITIVE,
         metavar="F|auto",
     )
     halvings: int | None = declared(
         None,
-        "Halve the rate at most this many times: a test that ends not_quasistatic is loaded again "
-        "until it is ok and the peaks of two rates agree within 1 %",
+        "Largest number of repetitions at half the rate. A test that ends not_quasistatic is "
+        "repeated until it is ok and the peaks of two rates agree within 1 %",
         bounds=HALVING_BOUNDS,
         default=f"never; {HALVINGS} with --rate auto",
         open="none",
@@ -129,33 +129,34 @@ class LoadingOptions:
     max_strain: float | None = declared(
         None,
         "Axial strain at which the test ends [-]. Without it a test under a confining pressure "
-        f"also ends on a plateau, once the deviator has been constant over "
+        f"also ends on a plateau, when the deviator has been constant over "
         f"{100.0 * PLATEAU_STRAIN:g} % of strain",
         bounds=POSITIVE,
-        default="by the reference strength, times "
+        default="strain at the reference strength, times "
         f"{_by_test(lambda kind: kind.largest_strain, 'max_strain')}",
-        open="by the reference strength",
+        open="from the reference strength",
         metavar="E",
     )
     stop_ratio: float = declared(
         STOP_RATIO,
-        "The test ends once the deviator, the axial stress minus the least confining pressure, has "
-        "fallen to this part of its peak [-]",
+        "Ratio to its peak at which the deviator ends the test [-]; the deviator is the axial "
+        "stress minus the smallest confining pressure",
         bounds=POSITIVE,
         default=_by_test(lambda kind: kind.stop_ratio, "stop_ratio"),
         metavar="F",
     )
-    dynamic: bool = declared(False, "Real masses and time instead of scaled masses")
+    dynamic: bool = declared(False, "Use real masses and time instead of scaled masses")
     gravity: float = declared(
         0.0,
-        "Acceleration downwards, with --dynamic only",
+        "Gravitational acceleration, with --dynamic only",
         unit="m/s2",
         bounds=NOT_NEGATIVE,
         metavar="G",
     )
     damping: float | None = declared(
         None,
-        "Local damping of the loading [-]; grains in free fall gain (1 - damping) g",
+        "Local damping factor during the loading [-]; grains in free fall accelerate with "
+        "(1 - damping) g",
         bounds=Bounds(at_least=0.0, below=1.0),
         default="0.7; 0 with --dynamic",
         metavar="A",
@@ -163,7 +164,7 @@ class LoadingOptions:
     start: str = declared(
         "",
         "Start of the loading. static: from the elastic solution below the first crack, for the "
-        "flexible model, in 3D also the rigid one, in "
+        "flexible model, in 3D also for the rigid model, in "
         f"{', '.join(names(lambda kind: kind.starts_static))}; in 2D it is the default of "
         f"{' and '.join(names(lambda kind: kind.usual.static_first))}",
         choices=STARTS,
@@ -171,9 +172,9 @@ class LoadingOptions:
     )
     loading: str = declared(
         "",
-        "Speed of the loading. waiting: load fast, and nearly stand still while a crack runs; the "
-        "default of flexible and rigid grains with scaled masses. adaptive: load faster while the "
-        "specimen is elastic; the default of inner particles unless contacts are brittle",
+        "Control of the loading rate. waiting: load fast, and nearly stop while cracks propagate; "
+        "the default of flexible and rigid grains with scaled masses. adaptive: load faster while "
+        "the specimen is elastic; the default of inner particles unless contacts are brittle",
         choices=LOADINGS,
         metavar="constant|adaptive|waiting",
     )
@@ -181,7 +182,7 @@ class LoadingOptions:
 
 @dataclass(frozen=True)
 class TestOptions:
-    """Options that only some tests have, see ``kinds``; None for other tests."""
+    """Options of single tests, see ``kinds``; None for other tests."""
 
     __test__ = False  # no test of pytest
 
@@ -191,7 +192,7 @@ class TestOptions:
     max_displacement: float | None = None
     wave: str | None = None
     control: str | None = None
-    own: Mapping[str, Value] = field(default_factory=dict)  #: those that are no fields, by name
+    own: Mapping[str, Value] = field(default_factory=dict)  #: options without a field, by name
 
 
 @dataclass(frozen=True)
@@ -201,9 +202,9 @@ class OutputOptions:
     report: bool = declared(True, "Write report.html")
     frames: int = declared(
         0,
-        "Number N of frames: the state at even strains, N up to the strain of the reference "
-        "strength, and around the peak, for ParaView; fewer if the test ends before or has fewer "
-        "rows",
+        "Number N of frames for ParaView: N states at equal strain intervals up to the strain of "
+        "the reference strength, and states around the peak; fewer if the test ends before or has "
+        "fewer rows",
         bounds=Bounds(at_least=0, at_most=MOST_FRAMES),
         whole=True,
         metavar="N",
@@ -217,14 +218,14 @@ class OutputOptions:
     )
 
 
-#: Options that runs of all tests have, by name.
+#: Options of all tests, by name.
 DECLARED = {**options_of(GrainOptions), **options_of(LoadingOptions)}
-#: Options that single tests have and that are no other name of a size.
+#: Options of single tests, except other names of a size.
 OWN_OPTIONS = tuple(name for name, of in options().items() if not any(o.size for o in of.values()))
 
 
 class SharedOptions(TypedDict, total=False):
-    """Keywords of ``flexpm.run`` and ``flexpm.compare``; those of one test have no other use."""
+    """Keywords of ``flexpm.run`` and ``flexpm.compare``, also the keywords of single tests."""
 
     points: int
     mesh: str
@@ -255,7 +256,7 @@ class SharedOptions(TypedDict, total=False):
 
 
 class RunOptions(SharedOptions, total=False):
-    """Keywords of ``flexpm.run`` that are no parameters of it."""
+    """Additional keywords of ``flexpm.run``."""
 
     confinement: float
 
@@ -280,7 +281,7 @@ def documented(function: Function) -> Function:
 
 
 def _wrapped(entry: str, indent: int = 4) -> list[str]:
-    """Lines of an entry of a list in a docstring."""
+    """Return the lines of an entry of a list in a docstring."""
     later = " " * (8 + indent)
     return textwrap.wrap(entry, 96, initial_indent=" " * 8, subsequent_indent=later)
 

@@ -219,8 +219,8 @@ def _verdict(folder: Path) -> tuple[Status | None, list[Rows]]:
     told = " ".join(f"{line[:1].upper()}{line[1:]}." for line in lines)
     box = Status(name, not missed, meaning, told)
     shares = [(words_of(str(key)), f"{float(part):.2g}") for key, part in content["left"].items()]
-    note = "1: the targets leave the key anywhere within its bounds; small: they determine it."
-    tables = [Rows("How open the keys are", ("key", "scatter left [-]"), shares, note)]
+    note = "Near 1: the targets do not determine the key within its bounds; near 0: they do."
+    tables = [Rows("Uncertainty of the keys", ("key", "remaining scatter [-]"), shares, note)]
     if measures := content.get("measures"):
         header = ("measure", "result", "target", "tolerance [%]", "verdict", "advice")
         tables.insert(0, Rows("Targets", header, [_of_target(one) for one in measures]))
@@ -304,7 +304,7 @@ def _means(means: Sequence[Mapping[str, str]]) -> Rows:
         pressure = _cell(row["confinement"], 1e-6, "", 3)
         counted = f"{int(row['runs']) - int(row['failed'])} of {row['runs']}"
         lines.append([row["model"], pressure, counted, *cells])
-    note = "Mean and standard deviation of the packings; runs that failed are left out."
+    note = "Mean and standard deviation of the packings; failed runs are not included."
     return Rows("Means", header, lines, note)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Three-point bending of a beam with a hole below its middle: where does it break?"""
+"""Three-point bending of a beam with a hole next to its middle."""
 
 import numpy as np
 

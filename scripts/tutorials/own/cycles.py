@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Three cycles of compression, each higher than the last one, then the whole curve."""
+"""Three cycles of compression with increasing stress, then the complete curve."""
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 
 core = flexpm.Specimen.rectangle(0.02, 0.04, 0.02, seed=3)
 rig = flexpm.rig(flexpm.build(core, "augig-table2-bilinear", "rigid"))
@@ -12,4 +12,6 @@ rig.load(flexpm.Loading(kind="waiting"))
 rig.save("cycles")
 record = rig.record
 lost = record["damage_energy"] + record["friction_energy"]
-print(f"peak {record['axial_stress'].max() / 1e6:.1f} MPa, lost {lost[-1]:.3f} J", *rig.warnings)
+print(
+    f"peak {record['axial_stress'].max() / 1e6:.1f} MPa, dissipated {lost[-1]:.3f} J", *rig.warnings
+)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A block under its weight on a joint that dips by 35 degrees: does it slide?"""
+"""Sliding of a block under its weight on a joint with a dip of 35 degrees."""
 
 import numpy as np
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 import yade
 
 width, height, dip, friction, gravity = 0.02, 0.02, np.radians(35.0), 0.5, 9.81

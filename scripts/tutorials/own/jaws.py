@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A disc split between the curved jaws of the ISRM, 1.5 of its radius."""
+"""Brazilian test with the curved jaws of the ISRM, whose radius is 1.5 times the disc radius."""
 
 import numpy as np
 
@@ -18,5 +18,5 @@ rig.save("jaws")
 load, angle = rig.record["load"], rig.record["contact_angle"]
 splitting = 2.0 * load.max() / (np.pi * diameter * thickness)
 at_peak = np.degrees(angle[load.argmax()])
-print(f"splitting strength {splitting / 1e6:.1f} MPa, of a flat load", *rig.warnings)
+print(f"splitting strength {splitting / 1e6:.1f} MPa by 2 P / (pi D t)", *rig.warnings)
 print(f"contact angle {at_peak:.0f} degrees at the peak")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A rock with two sets of joints: strength of three drawn networks beside that of the rock."""
+"""A rock with two sets of joints: strengths of three generated networks."""
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 import yade
 
 sets = {"bedding": (60.0, 0.015, 30.0), "cross": (40.0, 0.010, 110.0)}  # 1/m, m, degrees

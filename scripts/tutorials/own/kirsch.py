@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A borehole in a square under two pressures: stress at its wall beside Kirsch's."""
+"""A borehole in a square under two pressures: stress at its wall and Kirsch's solution."""
 
 import numpy as np
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Punch-through shear: two bridges between notches from above and below are sheared through."""
+"""Punch-through shear of the two bridges between notches from above and below."""
 
-import flexpm  # isort: skip  (first: it tells Python where YADE is)
+import flexpm  # isort: skip  (first: it makes YADE importable)
 
 width, height, thickness, depth = 0.03, 0.02, 0.01, 0.005
 places = [0.01, 0.02]

@@ -42,7 +42,9 @@ def test_two_minerals(package_parent, tmp_path):
 @pytest.mark.long
 def test_thin_section(package_parent, tmp_path):
     text = printed("thin_section.py", package_parent, str(tmp_path))
-    made, drawn = map(float, re.search(r"quartz ([\d.]+) mm2 of ([\d.]+)", text).groups())
+    made, drawn = map(
+        float, re.search(r"quartz ([\d.]+) mm2, in the image ([\d.]+)", text).groups()
+    )
     assert made == pytest.approx(drawn, rel=0.005)
     mixed, weak = map(float, re.findall(r"strength (\d+) MPa", text))
     assert weak < 0.95 * mixed
@@ -76,7 +78,7 @@ def test_first_core(package_parent, tmp_path):
     solved, tested = map(float, re.search(r"E = ([\d.]+) .* ([\d.]+) GPa", text).groups())
     assert tested == pytest.approx(solved, rel=0.02)
     assert "status ok" in text
-    assert 0.3 < float(re.search(r"begin at ([\d.]+) of it", text)[1]) < 1.0
+    assert 0.3 < float(re.search(r"initiation at ([\d.]+) of the peak", text)[1]) < 1.0
     assert (tmp_path / "report.html").is_file()
     assert (tmp_path / "outside.png").stat().st_size > 10000
 
@@ -106,9 +108,9 @@ def test_own_spheres(package_parent, tmp_path):
 def test_brazilian(package_parent, tmp_path):
     text = printed("brazilian.py", package_parent, str(tmp_path))
     direct, split = (float(peak) for peak in re.findall(r"([\d.]+) MPa", text))
-    ratio = float(re.search(r"over indirect ([\d.]+)", text)[1])
+    ratio = float(re.search(r"to indirect strength ([\d.]+)", text)[1])
     assert ratio == pytest.approx(direct / split, abs=0.01)
-    assert float(re.search(r"(\d+) % of its cracked points", text)[1]) > 70.0
+    assert float(re.search(r"(\d+) % of the cracked points", text)[1]) > 70.0
 
 
 @pytest.mark.long
@@ -122,7 +124,7 @@ def test_own_discs(package_parent, tmp_path):
 @pytest.mark.long
 def test_joints(package_parent, tmp_path):
     text = printed("joints.py", package_parent, str(tmp_path))
-    found = re.findall(r"strength +([\d.]+) MPa, of the plane +([\d.]+) MPa", text)
+    found = re.findall(r"strength +([\d.]+) MPa, plane of weakness +([\d.]+) MPa", text)
     assert len(found) == 3
     for strength, plane in found:
         assert float(strength) == pytest.approx(float(plane), rel=0.06)
@@ -152,9 +154,9 @@ def test_incline(package_parent):
 @pytest.mark.long
 def test_toppling(package_parent):
     text = printed("toppling.py", package_parent)
-    assert "dip = 26.07 degrees: stands, on 16" in text
+    assert "dip = 26.07 degrees: stable, with a weight of 16" in text
     assert "dip = 27.07 degrees: settle: missing reactions =" in text
-    assert "topples: by 5 degrees after 0." in text
+    assert "topples by 5 degrees after 0." in text
 
 
 @pytest.mark.slow
@@ -214,7 +216,7 @@ def test_direct_shear(package_parent, tmp_path):
 @pytest.mark.long
 def test_class_two(package_parent, tmp_path):
     text = printed("class_two.py", package_parent, str(tmp_path))
-    found = re.findall(r"peak ([\d.]+) MPa at ([\d.]+) permille, the end at ([\d.]+).* ok", text)
+    found = re.findall(r"peak ([\d.]+) MPa at ([\d.]+) permille, end at ([\d.]+).* ok", text)
     axial, lateral = ([float(number) for number in line] for line in found)
     assert lateral[0] == pytest.approx(axial[0], rel=0.05)
     assert axial[2] > axial[1]
@@ -229,7 +231,7 @@ def test_snap_back(package_parent, tmp_path, model):
     text = printed("snap_back.py", package_parent, str(tmp_path), model)
     first, last = map(float, re.search(r"from ([\d.]+) to ([\d.]+) um", text).groups())
     assert last < 0.8 * first
-    assert float(re.search(r"line by ([\d.]+) %", text)[1]) < 2.0
+    assert float(re.search(r"deviation from the law ([\d.]+) %", text)[1]) < 2.0
     followed = re.search(r"set point: ([\d.]+) % of the rows$", text, re.MULTILINE)
     assert float(followed[1]) > 95.0  # and no warning after it
     assert (tmp_path / "snap_back.png").stat().st_size > 10000

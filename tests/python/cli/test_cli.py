@@ -269,7 +269,7 @@ def test_a_size_beside_a_specimen_is_refused(capsys):
 def test_the_help_tells_how_far_apart_frames_are(capsys):
     assert cli.main(["run", "--help"]) == 0
     told = " ".join(capsys.readouterr().out.split())
-    assert "N up to the strain of the reference strength" in told
+    assert "up to the strain of the reference strength" in told
     assert "fewer if the test ends before or has fewer rows" in told
 
 

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from flexpm.runs import checkpoint  # isort: skip  (first: it tells Python where YADE is)
+from flexpm.runs import checkpoint  # isort: skip  (first: it makes YADE importable)
 import yade
 
 SPEC = SimpleNamespace(results=1, to_json=lambda: {"specimen": {}, "material": {}})

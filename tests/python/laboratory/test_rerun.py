@@ -109,7 +109,7 @@ def test_other_numbers_are_told_by_their_names(capsys, tmp_path):
     content["poissons_ratio"] *= 1.0 + 1e-15
     (first / "result.json").write_text(json.dumps(content))
     assert cli.main(["rerun", str(first), "--quiet", "--out", str(tmp_path / "second")]) == 0
-    assert f"other than in {first / 'result.json'}: poissons_ratio" in capsys.readouterr().out
+    assert f"different from {first / 'result.json'}: poissons_ratio" in capsys.readouterr().out
 
 
 def test_a_run_of_arrays_saves_them_and_is_repeated_from_them(given_specimen, tmp_path):

@@ -124,7 +124,7 @@ def test_an_absolute_strength_that_makes_softening_long_is_told(key):
     (line,) = softening_warnings(rock({"pair": PAIR, key: 0.4 * usual[key]}))
     assert line.startswith(f"interface biotite/quartz: softening length 2 G / {key} = ")
     assert f" = {2.5e6 * length:.3g} um, is" in line
-    assert "is 2.5 times the usual one (limit 2)" in line and STRENGTHS[key] in line
+    assert "is 2.5 times the usual length (limit 2)" in line and STRENGTHS[key] in line
     # factors lower the energy, too, and an energy that is given is meant
     assert softening_warnings(rock({"pair": PAIR, "factor": {key: 0.1}})) == []
     both = {key: 0.1 * usual[key], STRENGTHS[key]: 0.9 * usual[STRENGTHS[key]]}

@@ -103,7 +103,7 @@ def test_the_strain_of_area_names_its_state(ended, tmp_path):
     assert cli.main([*command, "--set", "plane=strain"]) in (0, 3)
     for folder, state, other in ((ended, "stress", "strain"), (tmp_path, "strain", "stress")):
         text = (folder / page.FILE).read_text(encoding="utf-8")
-        assert f"Strain of area up to the peak, plane {state}" in text
+        assert f"Area strain up to the peak, plane {state}" in text
         assert f"plane {other}" not in text
     result = Result.read(ended)
     for changed in ({"model": "rigid"}, {"tetrahedra": 10}):
@@ -333,7 +333,7 @@ def test_a_specimen_with_a_joint_has_its_parts_from_the_start_and_is_run_again(t
 def test_what_nobody_has_asked_for_is_told_by_what_stands_for_it():
     told = {one.name: one.value for one in asked.told(spec_of(["uniaxial"]))}
     assert told["control"] == "displacement of the ends"
-    assert told["max_strain"] == "by the reference strength"
+    assert told["max_strain"] == "from the reference strength"
 
 
 def test_a_run_that_no_command_describes_has_none():
@@ -439,10 +439,11 @@ def test_the_pointer_shows_the_values_of_the_record(browser, ended):
 
 def test_a_page_says_how_far_its_numbers_are_those_of_the_rock(ended):
     result = Result.read(ended)
-    assert "in mid-fall" in (ended / page.FILE).read_text(encoding="utf-8")
+    assert "while they move" in (ended / page.FILE).read_text(encoding="utf-8")
     confined = dataclasses.replace(result, confinement=4e6, model="rigid", youngs_modulus=2e10)
     confined.material = {**result.material, "joints": [{"name": "a"}]}
     assert page_run._reading(confined).split(". ")[1:] == [
-        "Under a confining pressure read the peak: the curve after it also depends on the loading",
-        "Young's modulus is measured in the middle half, with its joints (D21).",
+        "Under a confining pressure only the peak is valid: the curve after the peak also depends "
+        "on the loading",
+        "Young's modulus is measured in the middle half of the specimen, with joints (D21).",
     ]

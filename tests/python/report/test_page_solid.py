@@ -126,7 +126,7 @@ def test_a_large_solid_leaves_out_what_no_cut_needs_to_show(ended, monkeypatch):
     part = view_of(ended)
     assert part.counts["faces"] < whole.counts["faces"]
     assert len(part.data) < len(whole.data)
-    assert "left out" in part.note
+    assert "are not shown" in part.note
     assert whole.note == ""
 
 
@@ -136,7 +136,7 @@ def test_a_very_large_solid_has_no_map_and_its_page_says_so(ended, tmp_path, mon
     monkeypatch.setattr(page_run, "LARGEST_SOLID", grains - 1)
     assert cli.main(["report", str(folder)]) == 0
     text = (folder / page.FILE).read_text()
-    assert f"no map: grains = {grains}, are more than {grains - 1}" in text
+    assert f"no map: grains = {grains}, must be at most {grains - 1}" in text
     assert "map-solid" not in text
     monkeypatch.setattr(page_run, "LARGEST_SOLID", grains)
     assert cli.main(["report", str(folder)]) == 0

@@ -210,7 +210,7 @@ def test_a_core_has_its_volumetric_strain_below_the_stress(tmp_path, monkeypatch
     with_volume, without = figures
     assert len(without.axes) == 2  # stress and numbers of cracks
     stress, below = with_volume.axes[:2]
-    assert below.get_ylabel() == "strain of area [%]"
+    assert below.get_ylabel() == "area strain [%]"
     assert below.get_xlabel() == "axial strain [%]"
     assert below.get_xlim() == stress.get_xlim()
     total, elastic, cracks = (line for line in below.lines if len(line.get_xdata()) == 41)
@@ -222,7 +222,7 @@ def test_a_core_has_its_volumetric_strain_below_the_stress(tmp_path, monkeypatch
 def test_a_core_without_moduli_or_a_peak_has_the_total_alone(tmp_path):
     found = curves.volumes_of(result_with_peak(np.linspace(0.0, 40e6, 41)))
     assert [line.label for line in found.lines] == ["total"]
-    assert found.title == "Strain of area"
+    assert found.title == "Area strain"
     curves.curve_picture(tmp_path / "curve.png", result_with_peak([0.0, 1e6]))
     nowhere = Curve.from_array(np.full((3, len(COLUMNS)), np.nan))
     assert curves.volumes_of(dataclasses.replace(result_with_peak([0.0]), curve=nowhere)) is None
@@ -276,7 +276,7 @@ def test_an_envelope_says_what_it_shows(tmp_path, monkeypatch):
     axes = shown["axes"]
     assert axes.get_title("left").splitlines() == [
         "biaxial, augig-table7",
-        "1 of 4 runs have no peak and are left out",
+        "1 of 4 runs have no peak and are not plotted",
     ]
     lines = {line.get_label(): line for line in axes.lines}
     named = [text.get_text() for text in axes.get_legend().get_texts()]

@@ -56,7 +56,7 @@ _SOLID_RATES = {
 KIND = TestKind(
     name="bending",
     order=5,
-    about="a beam on two supports, pressed in the middle",
+    about="a beam on two supports, loaded in the middle",
     variants={
         "rectangle": Variant(
             rates=_RATES,

@@ -7,7 +7,7 @@ from ..test_kind import Rig, TestKind, Variant
 KIND = TestKind(
     name="elastic",
     order=99,
-    about="elastic constants of a rectangle, a box or a cylinder by one static solve",
+    about="elastic constants of a rectangle, a box or a cylinder by one static solution",
     variants={
         "rectangle": Variant(only_models=GRAIN_MODELS),
         "box": Variant(only_models=BLOCK_MODELS),

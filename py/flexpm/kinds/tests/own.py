@@ -13,7 +13,7 @@ _VARIANT = Variant(dict.fromkeys(BLOCK_MODELS, _RATES))
 KIND = TestKind(
     name="own",
     order=0,
-    about="a test of a script's own",
+    about="a custom test of a script",
     variants={
         "rectangle": _VARIANT,
         "box": _VARIANT,

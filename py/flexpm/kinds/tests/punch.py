@@ -129,7 +129,8 @@ KIND = TestKind(
     name="punch",
     order=8,
     about="punch-through shear: a platen pushes the part between two pairs of notches out of a "
-    "rectangle, whose outer parts stand on supports; its stress is the load over both bridges",
+    "rectangle, whose outer parts are on supports; its stress is the load divided by the area of "
+    "both bridges",
     variants={
         "rectangle": Variant(
             rates=slid.RATES,

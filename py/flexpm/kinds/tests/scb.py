@@ -69,7 +69,7 @@ _SOLID_RATES = {
 KIND = TestKind(
     name="scb",
     order=6,
-    about="half a disc with a notch on two supports, pressed on top",
+    about="half a disc with a notch on two supports, loaded on top",
     variants={
         "half-disc": Variant(_RATES, results={"flexible": 6, "rigid": 5}),
         "solid-half-disc": Variant(_SOLID_RATES),

@@ -55,8 +55,7 @@ def _measure(_: Frame, record: Columns, __: float | None) -> Mapping[str, float 
 KIND = TestKind(
     name="shear",
     order=7,
-    about="the lower half of a rectangle is pushed along below the upper one, to the largest "
-    "displacement",
+    about="the lower half of a rectangle slides below the upper half, to the largest displacement",
     variants={
         "rectangle": Variant(
             rates=slid.RATES,

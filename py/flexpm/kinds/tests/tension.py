@@ -25,7 +25,7 @@ _SOLID_RATES = {
 KIND = TestKind(
     name="tension",
     order=2,
-    about="direct tension of the same ends",
+    about="direct tension of the same specimens between the same ends",
     variants={
         "rectangle": Variant(
             rates=_RATES,

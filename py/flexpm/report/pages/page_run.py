@@ -45,17 +45,17 @@ from .statuses import NOT_ENDED, OWN_STATUS, STATUS
 _POINTS = 700
 #: Energies that a page shows, in the order of their colours.
 _ENERGIES = ("elastic", "damage", "friction", "damping", "kinetic", "potential")
-#: Pictures that a page shows where a run has them.
+#: Pictures that a page shows if a run has them.
 _PICTURES = {
-    "outside.png": "Outside and section",
+    "outside.png": "Surface and section",
     "network.png": "Fracture network",
     "events.png": "Acoustic emission",
 }
-#: Those of a script's own test, which has no map.
+#: Pictures of a custom test, which has no map.
 _OWN_PICTURES = {"cracks.png": "Cracks", "fragments.png": "Fragments"}
-#: Most grains of a solid that has a map: its states are read from their files, gigabytes of more.
+#: Largest number of grains of a 3D specimen with a map; files of larger states have gigabytes.
 LARGEST_SOLID = 100_000
-#: Values of a list that are shown.
+#: Largest number of values of a list that are shown.
 _LONGEST_LIST = 8
 #: What to cite, without the version.
 _PAPER = (
@@ -121,7 +121,7 @@ def write_own_page(
     chart, rows = stress_chart(result)
     known = [row for row in result_rows(result)[:-1] if any(map(str.isdigit, row[1]))]
     page = Page(
-        title=f"A script's {test_text(result)}",
+        title=f"Custom test: {test_text(result)}",
         about=size_text(result),
         versions=versions(result),
         status=OWN_STATUS.get(result.status),
@@ -158,7 +158,7 @@ def _volume(result: Result) -> list[Chart]:
 
 
 def _told_tables(inputs: Table) -> Iterator[Rows]:
-    """Stages, parts and gauges of a script's own test, a row each."""
+    """Yield tables of stages, parts and gauges of a custom test, with one row for each."""
     for title, name, word in (
         ("Stages", "stages", "stage"),
         ("Parts", "parts", "part"),
@@ -176,7 +176,7 @@ def _told_tables(inputs: Table) -> Iterator[Rows]:
 
 
 def _told(one: Table, word: str) -> str:
-    """What a stage, part or gauge is, but its name."""
+    """Return the definition of a stage, part or gauge without its name."""
     shown = {key: value for key, value in one.items() if key != word and value is not None}
     return ", ".join(
         f"{key.replace('_', ' ')} {_told_value(value)}" for key, value in shown.items()
@@ -189,7 +189,7 @@ def _told_value(value: object) -> str:
         return ", ".join(f"{key} {_told_value(one)}" for key, one in value.items() if one) or "none"
     if isinstance(value, list):
         if len(value) > _LONGEST_LIST:
-            return f"({len(value)} of them)"
+            return f"({len(value)} values)"
         return "(" + ", ".join(map(_told_value, value)) + ")"
     return f"{value:g}" if isinstance(value, float) else with_unit(value, "")
 
@@ -206,7 +206,7 @@ def cite(version: str) -> list[str]:
 
 
 def stress_chart(result: Result) -> tuple[Chart, IntArray]:
-    """Stress and cracked points over strain, and the rows of the record that it shows."""
+    """Return the chart of stress and cracked points over strain, and the plotted rows."""
     record = result.curve
     if not fits_a_picture(record):
         record = type(record)()
@@ -245,10 +245,10 @@ def run_map(
     *,
     turns: bool = False,
 ) -> Map | None:
-    """Map of a run, with ``turns`` that of a solid with a view; None if its record has no row.
+    """Return the map of a run, with ``turns`` also a 3D view; None if its record has no row.
 
     Raises:
-        InputError: if specimen.vtu cannot be read, or is that of another run.
+        InputError: if specimen.vtu cannot be read, or belongs to another run.
     """
     if not len(result.curve):
         return None
@@ -286,19 +286,19 @@ def maps_of(
     *,
     turns: bool = False,
 ) -> tuple[list[Map], list[str]]:
-    """Map of a run, or in one line why it is missing; arguments as for ``run_map``."""
+    """Return the map of a run, or the reason why it is missing; arguments as for ``run_map``."""
     if result.tetrahedra is not None and result.grains > LARGEST_SOLID:
-        why = f"grains = {result.grains}, are more than {LARGEST_SOLID} that a page shows"
+        why = f"grains = {result.grains}, must be at most {LARGEST_SOLID} for a map"
         return [], [f"no map: {why}; open final.vtu in ParaView"]
     try:
         found = run_map(folder, result, name, title, rows, chart, turns=turns)
     except InputError as error:
-        return [], [f"no map: {error}; repeat the run for it"]
+        return [], [f"no map: {error}; repeat the run for a map"]
     return [] if found is None else [found], []
 
 
 def inputs_table(inputs: Iterable[Input], title: str = "Inputs", file: str = FINISHED) -> Rows:
-    """Inputs with their units and sources; `file` holds them with all their digits."""
+    """Return inputs with their units and sources; `file` has them with all digits."""
     rows = [
         (words_of(name), with_unit(value, unit), source) for name, value, unit, source in inputs
     ]
@@ -310,14 +310,16 @@ def _reading(result: Result) -> str:
     """Return a sentence on the validity of the numbers for the rock."""
     if not kind_of(result.test).quasi_static:
         return ""
-    lines = ["Fragments are counted as the test ends, in mid-fall: at rest there are fewer."]
+    lines = ["Fragments are counted at the end of the test, while they move; at rest fewer remain."]
     if result.confinement:
         lines.append(
-            "Under a confining pressure read the peak: the curve after it also depends on the "
-            "loading."
+            "Under a confining pressure only the peak is valid: the curve after the peak also "
+            "depends on the loading."
         )
     if result.material.get("joints") and result.model != "flexible" and result.youngs_modulus:
-        lines.append("Young's modulus is measured in the middle half, with its joints (D21).")
+        lines.append(
+            "Young's modulus is measured in the middle half of the specimen, with joints (D21)."
+        )
     return " ".join(lines)
 
 
@@ -335,7 +337,7 @@ def _pairs_table(result: Result) -> Rows | None:
     ]
     if not rows:
         return None
-    note = "Softened: points that have begun to soften, cracked ones included."
+    note = "Softened: points that have started to soften, including cracked points."
     names = ("pair", *MODES.values(), "softened")
     return Rows("Cracked and softened points by pair of minerals", names, rows, note)
 
@@ -351,8 +353,8 @@ def _rates_table(result: Result) -> Rows | None:
         cells = (scaled(peak, 1e-6, "MPa"), change, str(one["steps"]), f"{one['seconds']:.2g} s")
         rows.append((f"{one['rate']:g}", one["status"], *cells))
         before = peak
-    note = "Half the rate until the status is ok and the peak moves by less than 1 %; all numbers "
-    note += f"of this page are of the last one, status {result.status}."
+    note = "The rate is halved until the status is ok and the peak changes by less than 1 %. All "
+    note += f"other results are from the last loading, with status {result.status}."
     heading = ("rate", "status", "peak", "change", "steps", "wall time")
     return Rows("Loadings", heading, rows, note)
 
@@ -365,7 +367,7 @@ def _networks_table(result: Result) -> Rows | None:
     rows = [
         (name, *(f"{found[key]:.4g}" for key in keys)) for name, found in result.networks.items()
     ]
-    note = "Generated: traces in the specimen; cut: contacts on them."
+    note = "Generated: traces in the specimen; cut: contacts on the traces."
     return Rows("Fracture network, P21 [1/m]", ("joint", *keys), rows, note)
 
 
@@ -385,7 +387,7 @@ def _energy_chart(result: Result) -> Chart:
 
 
 def with_unit(value: object, unit: str) -> str:
-    """A value as people write it: with a prefix of its unit."""
+    """Return a value as text, with a prefix of its unit."""
     if isinstance(value, list | tuple):
         names = any(isinstance(one, str) for one in value)
         return (", " if names else " to ").join(with_unit(one, unit) for one in value)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A solid that turns on a page: its faces, when they cracked, and what its grains bear.
+"""Rotatable 3D view of an HTML report: faces, their cracks, and the stresses of the grains.
 
-Faces are those of the undeformed grains. Their arrays are whole numbers, deflated; the page's
-script has the same order. Cracks come from cracks.csv, stresses from final.vtu.
+The faces belong to the undeformed grains. Their arrays are deflated whole numbers; the script of
+the page has the same order. Cracks are read from cracks.csv, stresses from final.vtu.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from ...results.solids.state import SolidSnapshot
 from ..style import colour_limits
 from .page import View, deflated
 
-#: Steps of a coordinate over the longest side: 0.01 mm of a core of 100 mm.
+#: Steps of a coordinate along the longest side: 0.01 mm for a core of 100 mm.
 _STEPS = 10_000
-#: A face that has not cracked, among its positions.
+#: Crack position of a face that has not cracked.
 _NEVER = 255
-#: Grains from which on only faces that crack and the outside are written.
+#: Number of grains above which only cracked faces and the surface are written.
 LARGEST_WHOLE = 20_000
-#: Two places are one, over the longest side.
+#: Distance below which two positions are equal, relative to the longest side.
 _SAME = 1e-7
 
 
@@ -45,15 +45,15 @@ def solid_view(
     at: IntArray,
     letters: Sequence[str],
 ) -> View:
-    """Make the view of a test.
+    """Make the 3D view of a test.
 
     Args:
         name: Name of the map with the slider.
-        specimen: The solid before the test.
-        final: It afterwards, for stresses; None: not known.
+        specimen: The specimen before the test.
+        final: The specimen after the test, for stresses; None: unknown.
         cracks: Cracks of the test.
-        at: Position of the slider from which on each is there.
-        letters: Colours of the fragments of all grains at each position, a letter a grain.
+        at: Slider position of each crack, from which on it is shown.
+        letters: Colours of the fragments at each position, one letter per grain.
     """
     faces = _faces(specimen)
     contacts = len(specimen.contact_grains)
@@ -62,7 +62,7 @@ def solid_view(
     kept = np.ones(len(faces.sizes), dtype=bool)
     if len(specimen.volumes) > LARGEST_WHOLE:
         kept[:contacts] = time < _NEVER
-        note = "Faces within that did not crack are left out: a cut shows cracks alone."
+        note = "Inner faces without cracks are not shown: a cut shows only cracks."
     stress, limits = (None, ()) if final is None else _stresses(final)
     low, span = faces.vertices.min(axis=0), np.ptp(faces.vertices, axis=0)
     scale = _STEPS / float(span.max())
@@ -100,7 +100,7 @@ def solid_view(
 
 
 def _faces(solid: SolidSnapshot) -> _Faces:
-    """Contacts first, in their order, then the triangles that no two grains share."""
+    """Return the contacts, in their order, then the triangles on the surface."""
     places = np.concatenate([solid.corner_reference, solid.reference])
     step = _SAME * float(np.ptp(places, axis=0).max())
     _, first, one = np.unique(
@@ -127,7 +127,7 @@ def _faces(solid: SolidSnapshot) -> _Faces:
 def _crack_times(
     solid: SolidSnapshot, cracks: Sequence[AnyCrack], at: IntArray
 ) -> tuple[IntArray, IntArray]:
-    """Position at which half of the points of each contact have cracked, and the mode of most."""
+    """Return the position at which half of each contact has cracked, and its dominant mode."""
     contacts = len(solid.contact_grains)
     half = (np.diff(solid.point_offsets) + 1) // 2
     time, mode = np.full(contacts, _NEVER), np.zeros(contacts, dtype=int)

@@ -199,10 +199,10 @@ let loading;
 async function turn(view) {
     const missing = document.getElementById(`${view.name}-missing`);
     const say = (why) => { missing.textContent = `${why}: see the pictures below.`; missing.hidden = false; };
-    if (!document.getElementById("three")) return say("No view that turns, as libjs-three was not installed when this page was made");
-    if (!window.DecompressionStream) return say("No view that turns, as this browser cannot inflate its arrays");
+    if (!document.getElementById("three")) return say("No 3D view, because libjs-three was not installed when this page was made");
+    if (!window.DecompressionStream) return say("No 3D view, because this browser cannot inflate its arrays");
     const test = document.createElement("canvas");
-    if (!(test.getContext("webgl") || test.getContext("experimental-webgl"))) return say("No view that turns, as this browser has no WebGL");
+    if (!(test.getContext("webgl") || test.getContext("experimental-webgl"))) return say("No 3D view, because this browser has no WebGL");
     document.getElementById(`${view.name}-shown`).hidden = false;
     loading = loading || load();
     await loading;
