@@ -121,12 +121,37 @@ def test_the_listings_that_read_a_run(page, words, tmp_path, monkeypatch, capsys
     [
         ("doc/specimen_files.rst", "reads the same grains from it::"),
         ("doc/polyhedra.rst", "a small box and counts them::"),
+        ("doc/theory.rst", 'work of the boundary ("Energy")::'),
+        ("doc/control.rst", "which must be below 0.001::"),
+        ("doc/deviations.rst", "determine its grains and contacts::"),
     ],
 )
 def test_the_listings_that_make_a_specimen(page, words, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     exec(code_after(page, words), {})
     assert printed(page, capsys)
+
+
+def shown_output(page):
+    """The first command of a page of which the output is shown, and this output as a pattern."""
+    text = (ROOT / page).read_text()
+    command, below = re.search(
+        r"^    flexpm (.*)\n\nThe command prints((?:.*\n)+)", text, re.M
+    ).groups()
+    block = re.search(r"::(?: none)?\n\n((?:    .*\n)+)", below)[1]
+    lines = [line for line in textwrap.dedent(block).splitlines() if not line.startswith("about ")]
+    pattern = re.escape("\n".join(lines)).replace(r"\.\.\.", r"[\s\S]*").replace(r"\*", ".*")
+    return shlex.split(command), pattern
+
+
+@pytest.mark.parametrize("page", ["doc/choosing.rst", "doc/loading.rst", "doc/yade_models.rst"])
+@pytest.mark.long
+def test_commands_print_what_the_pages_show(page, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    command, pattern = shown_output(page)
+    assert cli.main([*command, "--quiet"]) == 0
+    said = "\n".join(line.rstrip() for line in capsys.readouterr().out.splitlines())
+    assert re.fullmatch(pattern, said), said
 
 
 def test_the_listing_of_solids_in_the_scene(capsys):
