@@ -37,7 +37,7 @@ def checks() -> Iterator[Check]:
     """Examine the installation, one part after the other.
 
     Yields:
-        Name of the check, whether it passed, and what was found or what to do, in one line.
+        Name of the check, whether it passed, and the finding or a remedy in one line.
     """
     yield _python()
     yield from _packages()

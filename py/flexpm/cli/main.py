@@ -56,10 +56,10 @@ _OURS = (RecursionError, NotImplementedError)
 
 
 class Commands(click.Group):
-    """Group whose unknown commands name the nearest known one."""
+    """Group that answers an unknown command with the nearest known command."""
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
-        """Find the command, or say which one was probably meant."""
+        """Find the command, or raise InputError with the nearest known command."""
         if args and self.get_command(ctx, args[0]) is None and not args[0].startswith("-"):
             known = self.list_commands(ctx)
             raise InputError(
@@ -277,7 +277,7 @@ for _one in (cli_compare.compare, runs.run, runs.rerun, runs.elastic):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command with `arguments` (the process's own if None) and return its exit code."""
+    """Run the command with `arguments` (None: arguments of the process); return its exit code."""
     terminal.prepare()
     os.environ["MPLBACKEND"] = "agg"  # pictures are files; a wrong name would stop the import
     signals.received.clear()
@@ -301,7 +301,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 @contextlib.contextmanager
 def _no_warnings() -> Iterator[None]:
-    """Keep warnings of libraries for those who look for errors in the program."""
+    """Hide warnings of libraries unless the program is debugged."""
     with warnings.catch_warnings():
         if not os.environ.get(_DEBUG):
             warnings.simplefilter("ignore")
@@ -309,7 +309,7 @@ def _no_warnings() -> Iterator[None]:
 
 
 def _answer(error: BaseException) -> int:
-    """Tell what has ended the command in one line and return the exit code."""
+    """Print the reason why the command ended in one line, and return the exit code."""
     asked = [number for number in signals.received if number != signal.SIGINT]
     if isinstance(error, signals.Terminated) or asked:
         number = asked[0] if asked else signal.SIGTERM

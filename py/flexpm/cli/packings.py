@@ -36,13 +36,13 @@ def asked(options: Table) -> Sequence[int]:
 def carry_out(
     placed: Mapping[str, RunSpec], seeds: Sequence[int], options: Table, *, out: Path, quiet: bool
 ) -> None:
-    """Run what is not finished yet, then tell means and write tables and pictures.
+    """Carry out the unfinished runs, print the means, and write tables and figures.
 
     Args:
-        placed: The runs, of any packing, by their folder below that of all.
+        placed: The runs, of any packing, by their folder below `out`.
         seeds: Seeds of the packings.
         options: Options of the command.
-        out: Folder of all.
+        out: Folder of all runs.
         quiet: Show no progress.
 
     Raises:

@@ -197,7 +197,7 @@ class Name(click.ParamType):
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> str:
-        """Return the name, or raise InputError with the nearest known one."""
+        """Return the name, or raise InputError with the nearest known name."""
         require_known(label_of(param), value, self.known)
         return str(value)
 

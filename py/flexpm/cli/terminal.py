@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the command shows: results on stdout, progress and one-line errors on stderr."""
+"""Output of the command: results on stdout, progress and one-line errors on stderr."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def say(text: str) -> None:
 
 
 def drop_output() -> None:
-    """Send what is still to be written to stdout nowhere, also when Python ends."""
+    """Discard all remaining output to stdout, also at the end of Python."""
     with contextlib.suppress(OSError, ValueError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())
@@ -78,8 +78,8 @@ LINES_EVERY = 30.0
 class Progress:
     """Progress on stderr: a bar on a terminal, else a line each half minute.
 
-    A bar has the rate and the remaining time. Lines come from a thread, since what reports progress
-    may do so seldom: a study does when a run has ended.
+    A bar has the rate and the remaining time. Lines are written by a thread, because reports of
+    progress may be rare: a study reports only at the end of a run.
     """
 
     _FORMAT = (
@@ -97,9 +97,9 @@ class Progress:
         self._writer = threading.Thread(target=self._lines, daemon=True)
 
     def __call__(self, done: float, expected: float, text: str = "") -> None:
-        """Show that `done` of about `expected` are done; `text` says what is going on.
+        """Show that `done` of about `expected` are done; `text` is the present activity.
 
-        Fewer done than before mean that something new has begun.
+        A smaller `done` than before starts a new activity.
         """
         self._last = (done, expected, text)
         if not self._shown:
@@ -136,7 +136,7 @@ class Progress:
         return bar
 
     def close(self) -> None:
-        """Remove the bar from the terminal: what it was of is over."""
+        """Remove the bar from the terminal at the end of its activity."""
         self._last = None
         if self._bar is not None:
             self._bar.close()

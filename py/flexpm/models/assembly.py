@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the solver of a model is assembled from: cells, their bonds, and the laws of their contacts.
+"""Input of the solver of a model: cells, their bonds, and the laws of their contacts.
 
 A solver that has been assembled needs no scene: elastic constants come from it at once. SI units.
 """
@@ -30,7 +30,7 @@ _OTHERWISE = {"name", "plane", "softening", "open", "shear_stiffness", "dilation
 
 @dataclass
 class Grains:
-    """What the solver assembles: cells, their discs (rows x, y, radius [m]) and the model."""
+    """Grains for the solver: cells, their discs (rows x, y, radius [m]) and the model."""
 
     specimen: Specimen
     model: str
@@ -88,7 +88,7 @@ def assembled(grains: Grains, chosen: Material) -> wrapper.GrainSolver:
 
 
 def _input(grains: Grains) -> AssemblyInput:
-    """Cells and how they are bonded, but for what the material says."""
+    """Return cells and bonds, without the properties of the material."""
     cells = AssemblyInput(
         grains.tessellation,
         np.ascontiguousarray(grains.discs[:, :2]),
@@ -144,7 +144,7 @@ def _joint_material(law: Table) -> wrapper.GrainMat:
 
 
 def grain_material(chosen: Material, model: str) -> wrapper.GrainMat:
-    """What a solver takes of a material for a model."""
+    """Return the material of a solver for a model."""
     law = chosen.law(model)
     return wrapper.GrainMat(
         label=chosen.name, planeStrain=law["plane"] == "strain", **_numbers({**law})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names of the models and what each may be asked for; nothing heavy is loaded here. SI units."""
+"""Names and valid options of the models; only light modules are loaded here. SI units."""
 
 from __future__ import annotations
 
@@ -56,12 +56,12 @@ def local_damping(damping: float | None, *, dynamic: bool) -> float:
     """Local damping alpha that is in effect [-].
 
     Args:
-        damping: As asked for [-]; None: 0.7 with scaled masses, 0 with real ones, on whose motion
-            under gravity it would drag.
+        damping: Requested damping factor [-]; None: 0.7 with scaled masses, 0 with real masses,
+            whose motion under gravity it would slow down.
         dynamic: Real masses and time.
 
     Raises:
-        InputError: for one out of range.
+        InputError: for a factor out of range.
     """
     if damping is None:
         return 0.0 if dynamic else DAMPING
@@ -72,7 +72,7 @@ def require_model(label: str, model: str, known: Sequence[str], *, solid: bool) 
     """Refuse a model that is not one of a few.
 
     Args:
-        label: What asks for it, for the message.
+        label: Begin of the message: function and argument.
         model: Its name.
         known: Names of the models that are available.
         solid: Whether they are those of a 3D specimen.

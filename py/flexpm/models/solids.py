@@ -58,7 +58,7 @@ def snapshot_of(found: Table, source: str, minerals: IntArray | None = None) -> 
     Args:
         found: Its arrays, as `GrainSolver.snapshot` gives them.
         minerals: Index of each grain's mineral, or None if all grains are alike.
-        source: What the stress of a tetrahedron is: its own or its grain's.
+        source: Source of the stress of a tetrahedron: the tetrahedron or its grain.
     """
     from ..results.solids.state import SolidSnapshot
 

@@ -15,7 +15,7 @@ from ..specimens.space.specimen import SolidSpecimen
 
 
 class Faces(NamedTuple):
-    """What the bonds on faces take of them."""
+    """Geometry of the faces for their bonds."""
 
     grains: IntArray  #: (n, 2)
     middles: FloatArray  #: centroids, (n, 3) [m]

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """State of YADE's bonded spheres as the plain arrays of the other models' snapshots. SI units.
 
-Each cell is drawn as a fan of triangles that moves and turns with its sphere; its stress is the
-mean stress of the sphere's bonds, sum of branch times force over volume. A bond is one point at the
-middle of its edge: its damage is 0 or 1, its slip the elastic one. Tension is positive.
+Each cell is plotted as a fan of triangles that moves and rotates with its sphere. Its stress is the
+mean stress of the bonds of the sphere, the sum of branch times force divided by the volume. A bond
+is one point in the middle of its edge, with a damage of 0 or 1 and an elastic slip. Tension is
+positive.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ def snapshot(
         specimen: The grains.
         bodies: Body of each grain.
         bonds: Properties of the bonds.
-        cracks: What watches them, just after a look.
+        cracks: Observer of the bonds, immediately after an observation.
         interactions: That each bonded pair has now.
         minerals: Index of each grain's mineral, or None if all grains are alike.
     """
@@ -89,7 +90,7 @@ def snapshot(
 
 
 def _present_ends(motion: Motion, bonds: Bonds) -> FloatArray:
-    """Ends of the bonds' edges, carried along by both grains [m]; nan where one is gone."""
+    """Return the ends of the edges of bonds, moved with both grains [m]; nan without a grain."""
     sides = [
         [motion.carry(bonds.grains[:, side], bonds.ends[:, end]) for side in (0, 1)]
         for end in (0, 1)
@@ -142,7 +143,7 @@ class Motion:
 
 
 def bond_forces(bodies: Sequence[int], bonds: Bonds, interactions: Interactions) -> FloatArray:
-    """Force of each bond on its second grain [N], (C, 2); of what is left of it once broken."""
+    """Return the force of each bond on its second grain [N], (C, 2), also after it has broken."""
     forces = np.zeros((len(bonds), 2))
     for row, interaction in enumerate(interactions):
         if interaction is not None and interaction.isReal:
@@ -173,7 +174,7 @@ def _grain_stress(
 
 
 def _fans(specimen: Specimen, alive: BoolArray) -> tuple[IntArray, FloatArray, IntArray, IntArray]:
-    """Grain of each node, nodes, triangles over all nodes, grain of each; of what exists."""
+    """Return the grain of each node, nodes, triangles, and the grain of each triangle."""
     meshes = specimen.meshes("fan")
     nodes = np.diff(meshes.node_offsets)
     count = np.diff(meshes.triangle_offsets)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""State of YADE's bonded spheres in a solid as the arrays of the other models' snapshots. SI units.
+"""State of YADE's bonded spheres in 3D as the arrays of the other models' snapshots. SI units.
 
-Each cell moves and turns with its sphere; its stress is the mean stress of the sphere's bonds. A
-bond is one point in the middle of its face: its damage is 0 or 1, its slip the elastic one. A bond
-of an interaction range is a square in the gap. Tension is positive.
+Each cell moves and rotates with its sphere; its stress is the mean stress of the bonds of the
+sphere. A bond is one point in the middle of its face, with a damage of 0 or 1 and an elastic slip.
+A bond of an interaction range is a square in the gap. Tension is positive.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ def solid_snapshot(
     interactions: Sequence[wrapper.Interaction | None],
     minerals: IntArray | None = None,
 ) -> SolidSnapshot:
-    """State of the spheres and their bonds, of erased ones, too; no place of an erased sphere.
+    """Return the state of spheres and bonds, also of erased bonds; erased spheres have no position.
 
     Args:
         specimen: The grains.
         bodies: Body of each grain.
         bonds: Properties of the bonds.
-        cracks: What watches them, just after a look.
+        cracks: Observer of the bonds, immediately after an observation.
         interactions: That each bonded pair has now.
         minerals: Index of each grain's mineral, or None if all grains are alike.
     """
@@ -149,7 +149,7 @@ def _across(normals: FloatArray) -> tuple[FloatArray, FloatArray]:
 def forces_on_second(
     bodies: Sequence[int], bonds: Bonds, interactions: Sequence[wrapper.Interaction | None]
 ) -> FloatArray:
-    """Force of each bond on its second grain [N], (C, 3); of what is left of it once broken."""
+    """Return the force of each bond on its second grain [N], (C, 3), also after it has broken."""
     forces = np.zeros((len(bonds), 3))
     for row, interaction in enumerate(interactions):
         if interaction is not None and interaction.isReal:

@@ -102,7 +102,7 @@ def cracks_csv(cracks: Sequence[AnyCrack]) -> str:
 
 
 def read_cracks(path: Path) -> list[AnyCrack]:
-    """Read what ``cracks_csv`` gave; energies that an older flexpm did not write are nan.
+    """Read the output of ``cracks_csv``; energies that an older flexpm did not write are nan.
 
     Raises:
         InputError: if the file cannot be read or holds no cracks.
@@ -162,9 +162,9 @@ def count_softened_by_pair(
 def cracks_from_snapshot(
     snapshot: AnySnapshot, curve: Curve, minerals: Sequence[str] = ()
 ) -> list[AnyCrack]:
-    """Cracks of a snapshot in the order of their steps; strains are interpolated in `curve`.
+    """Return the cracks of a snapshot in the order of their steps; strains are from `curve`.
 
-    Those of erased bonds are among them, and what was erased of these.
+    Cracks of erased bonds are included, and the erased points of these bonds.
 
     Args:
         snapshot: The state.

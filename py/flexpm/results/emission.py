@@ -40,7 +40,7 @@ _BENDS = 0.1
 
 
 class EventRule(NamedTuple):
-    """What joins two cracked points: both limits hold."""
+    """Limits within which two cracked points belong to one event; both must hold."""
 
     distance: float  #: between their places [m]
     steps: float  #: between their times
@@ -111,10 +111,10 @@ def event_rule(mean_diameter: float, height: float, crossing_steps: float) -> Ev
 
 
 def find_events(cracks: Sequence[AnyCrack], rule: EventRule) -> list[AnyEvent]:
-    """Events of cracked points, in the order of their first cracks.
+    """Return the events of cracked points, in the order of their first cracks.
 
-    A point belongs to an event if it has cracked close to any of its points. What scripts have
-    erased has not cracked.
+    A point belongs to an event if it has cracked close to any point of the event. Points that
+    scripts have erased do not count as cracked.
     """
     kept = [one for one in cracks if one.mode in MODES and math.isfinite(one.x + one.y)]
     if not kept:
@@ -211,7 +211,7 @@ def _most_frequent(bins: IntArray) -> int:
 
 
 def _is_line(found: Sequence[Fit]) -> bool:
-    """Whether the second fit, of a part of the first one's events, says the same."""
+    """Return whether the second fit, to a part of the events, agrees with the first fit."""
     if len(found) < 2:
         return True
     first, later = found
@@ -234,7 +234,7 @@ def events_csv(events: Sequence[AnyEvent]) -> str:
 
 
 def read_events(path: Path) -> list[AnyEvent]:
-    """Read what ``events_csv`` gave.
+    """Read the output of ``events_csv``.
 
     Raises:
         InputError: if the file cannot be read or holds no events.

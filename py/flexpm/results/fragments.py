@@ -35,12 +35,12 @@ class Fragments:
 
 
 def connected(pairs: IntArray, bonded: BoolArray, areas: FloatArray) -> Fragments:
-    """Find what hangs together.
+    """Find the fragments: groups of connected grains.
 
     Args:
         pairs: The two grains of each contact, (C, 2).
         bonded: Whether each contact holds its grains together, (C,).
-        areas: Area of each grain, 0 of one that is gone [m2].
+        areas: Area of each grain, 0 for an erased grain [m2].
     """
     pairs, areas = np.asarray(pairs).reshape(-1, 2), np.asarray(areas, dtype=float)
     held = pairs[np.asarray(bonded, dtype=bool)]

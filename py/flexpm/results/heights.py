@@ -24,10 +24,10 @@ def with_heights(
 def without_heights(
     names: Sequence[str], rows: Sequence[Sequence[str]]
 ) -> tuple[Sequence[str], Sequence[Sequence[str]], list[float | None]]:
-    """Take the heights [m] out of a table; None where it has none.
+    """Split the heights [m] from a table; None for rows without a height.
 
     Raises:
-        ValueError: if one is no number, or a row has not as many columns as the table.
+        ValueError: if a height is not a number, or a row has another number of columns.
     """
     if _NAME not in names:
         return names, rows, [None] * len(rows)

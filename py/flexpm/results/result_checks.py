@@ -45,11 +45,11 @@ def require_sense(file: Path, content: Table, known: Iterable[Field[object]]) ->
 
     Args:
         file: Named in messages.
-        content: What it holds.
+        content: Content of the file.
         known: Fields of a result.
 
     Raises:
-        InputError: for what is missing, of another type, or out of its range.
+        InputError: for a value that is missing, of another type, or out of its range.
     """
     name, fields = f"result = {str(file)!r}", [*known]
     missing = [one.name for one in fields if _is_required(one) and one.name not in content]

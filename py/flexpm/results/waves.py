@@ -53,10 +53,10 @@ def velocities(curve: Curve) -> tuple[FloatArray, FloatArray]:
 
 
 def centre(time: FloatArray, displacement: FloatArray) -> float:
-    """Mean time of a pulse, each moment weighted by the velocity in it [s].
+    """Return the mean time of a pulse, weighted by the velocity [s].
 
-    It is the time at which its longest waves pass, whatever the grains do with the shorter ones.
-    By parts it needs no velocity: T - integral of u / u(T) from 0 to T.
+    This is the time at which the longest waves pass, independently of the dispersion of shorter
+    waves by grains. Integration by parts avoids the velocity: T - integral of u / u(T) from 0 to T.
     """
     t, u = (np.concatenate([[0.0], column]) for column in (time, displacement))
     area = float(0.5 * (u[1:] + u[:-1]) @ np.diff(t))

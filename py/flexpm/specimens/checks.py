@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks of what a specimen is made from: each refusal is one line. Lengths in metres."""
+"""Checks of the input of a specimen, with one-line errors. Lengths in metres."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def require_memory(where: str, grains: float, each: float) -> None:
     """Refuse a packing that the machine has no memory for, before it is begun.
 
     Args:
-        where: What is packed, for the message.
+        where: Begin of the message: the specimen that is packed.
         grains: Expected number of grains.
         each: Memory of a grain [bytes].
 

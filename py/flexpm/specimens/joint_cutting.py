@@ -39,14 +39,14 @@ def cut_cells(
 
     Args:
         cells: The cells.
-        discs: Rows x, y, radius [m], one for each cell.
+        discs: Disc of each cell, rows x, y, radius [m].
         edge_joints: Per shared edge an index into `names`, -1: none; None: no joints.
         lines: By the name of their joint.
         names: All joints, those of earlier cuts included.
         progress: Called with (lines done, lines, text).
 
     Returns:
-        The cells, second parts of cut ones last, and what came of the lines of each joint.
+        The cells, with the second parts of cut cells last, and the outcome of each joint's lines.
 
     Raises:
         InputError: if no line cuts anything, for lines far away, and for too many segments.
@@ -98,7 +98,7 @@ class Excavatable(ABC):
 
     @property
     def told_cuts(self) -> dict[str, Cut]:
-        """What came of the lines of joints with a law; an excavation tells of its wall itself."""
+        """Return the outcome of the lines of joints with a law, without excavations."""
         there = self.joint_cuts.items()
         return {name: cut for name, cut in there if not name.startswith(EXCAVATION)}
 
@@ -131,7 +131,7 @@ class Excavatable(ABC):
 
         Raises:
             InputError: for a line that crosses itself, leaves the specimen, or meets no edge of a
-                cell, for one that is there already, and as ``with_joints``.
+                cell, for an existing name, and as ``with_joints``.
         """
         if not isinstance(excavations, Mapping) or not excavations:
             raise InputError(
@@ -160,10 +160,10 @@ class Excavatable(ABC):
         return cut
 
     def excavation(self, name: str) -> Excavation:
-        """What lies within a line of ``with_excavations``: cells, areas, raggedness.
+        """Return the content of a line of ``with_excavations``: cells, areas, raggedness.
 
         Raises:
-            InputError: for a name that there is not.
+            InputError: for an unknown name.
         """
         there = [one.removeprefix(EXCAVATION) for one in self.joints if one.startswith(EXCAVATION)]
         if not there:

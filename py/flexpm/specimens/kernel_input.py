@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What users give for a specimen, as arrays that the kernel takes. Lengths in metres."""
+"""Conversion of user input of a specimen to arrays for the kernel. Lengths in metres."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Circle:
 
 
 def checksum(given: FloatArray | IntArray | Circle) -> str:
-    """Short hash of numbers, by which files name what is too long for them."""
+    """Return a short hash of numbers, with which files refer to long data."""
     plain = dataclasses.astuple(given) if isinstance(given, Circle) else given
     values = np.ascontiguousarray(plain, dtype=float)
     return hashlib.sha256(values.tobytes()).hexdigest()[:16]
@@ -114,7 +114,7 @@ def ring(name: str, values: npt.ArrayLike) -> FloatArray:
 
 
 def mineral_indices(minerals: npt.ArrayLike, grains: int) -> IntArray:
-    """Indices of the grains' minerals, one for each of their number."""
+    """Return the index of the mineral of each grain."""
     given = np.asarray(minerals)
     if given.shape != (grains,) or given.dtype.kind not in "iu" or given.min() < 0:
         raise InputError(

@@ -44,11 +44,12 @@ def assign(fractions: Sequence[float], areas: FloatArray, seed: int) -> IntArray
 def minerals_of(specimen: AnySpecimen, material: Material) -> IntArray | None:
     """Index of the mineral of each grain, or None for a rock of one kind of grain.
 
-    Taken from the specimen if it says so, else drawn with the specimen's seed (0 if it has none).
+    Minerals of the specimen are used if it has them. Otherwise they are sampled with the seed of
+    the specimen (0 without a seed).
 
     Raises:
-        InputError: if the specimen has more minerals than the material, or names one that the
-            material has at another place.
+        InputError: if the specimen has more minerals than the material, or names a mineral that
+            has another index in the material.
     """
     if specimen.before is not None and specimen.parents is not None:
         before = minerals_of(specimen.before, material)  # pieces of a grain are of its mineral

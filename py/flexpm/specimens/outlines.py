@@ -21,11 +21,11 @@ def polygon_outline(
 ) -> PolygonOutline:
     """Check a polygon and its holes, each in any sense.
 
-    The four corners of a rectangle along x and y start at the lower left one, so that its sides are
-    numbered as those of a packed rectangle.
+    The four corners of a rectangle along x and y start at the lower left corner, so that its sides
+    have the indices of a packed rectangle.
 
     Raises:
-        InputError: for a ring that crosses itself or another one, or is no ring.
+        InputError: for a ring that crosses itself or another ring, or is not a ring.
     """
     outer = ring(f"{where}: corners", corners)
     box = box_of(outer)
@@ -42,7 +42,7 @@ def polygon_outline(
 
 
 def box_of(corners: FloatArray) -> FloatArray:
-    """Corners of the box around points, from the lower left one, counter-clockwise [m]."""
+    """Return the corners of the box around points, counter-clockwise from the lower left [m]."""
     (x0, y0), (x1, y1) = corners.min(axis=0), corners.max(axis=0)
     return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
 

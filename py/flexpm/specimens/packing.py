@@ -47,10 +47,10 @@ F = TypeVar("F", bound="Container")
 
 
 class Container(Protocol):
-    """What is filled. Places are rows x, y of discs, or x, y, z of spheres."""
+    """Container of a packing. Positions are rows x, y of discs, or x, y, z of spheres."""
 
     def scaled(self: F, factor: float) -> F:
-        """Return the same with all lengths multiplied by ``factor``."""
+        """Return the container with all lengths multiplied by ``factor``."""
 
     def insert(self, radii: FloatArray, shrink: float, seed: int) -> FloatArray:
         """Return random places at which shrunken discs or spheres do not overlap."""
@@ -194,7 +194,7 @@ def _relax(
 
 @contextmanager
 def _private_scene(scene: wrapper.Omega) -> Iterator[None]:
-    """Switch to the scene for packings, and back at the end, whatever happens."""
+    """Switch to the scene for packings, and back at the end, also after an error."""
     if scene.running:
         raise SimulationError(
             "packing: O.running = True, must be stopped while a specimen is made; call O.pause()"

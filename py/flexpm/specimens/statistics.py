@@ -60,8 +60,8 @@ def of_networks(
     Args:
         asked: Name and P21 of each set [1/m].
         ends: Ends (n, 2, 2) of the contacts of each joint [m].
-        cuts: What came of the lines of each joint.
-        area: That of the specimen [m2].
+        cuts: Outcome of the lines of each joint.
+        area: Area of the specimen [m2].
     """
     found: dict[str, dict[str, float]] = {}
     for name, intensity in asked:

@@ -37,7 +37,7 @@ Named = tuple[FloatArray | IntArray, tuple[str, ...]]
 
 
 def written(writer: vtkXMLUnstructuredGridWriter) -> bytes:
-    """Return what VTK writes, as a text: of a file it does not tell that a part was refused."""
+    """Return the output of VTK as text; for a file VTK does not report that a part was rejected."""
     writer.SetWriteToOutputString(True)
     with silence():
         done = writer.Write()

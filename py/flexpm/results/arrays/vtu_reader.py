@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays of a .vtu file as flexpm writes it: texts of base64, compressed in blocks by LZ4.
+"""Arrays of a .vtu file as flexpm writes it: base64 texts, compressed in blocks by LZ4.
 
-VTK's own reader trusts a file: one that was changed can end the process, or keep it for ever. Here
-a file is either whole or refused, and nothing is said on standard error.
+The reader of VTK does not check a file: a changed file can end the process or block it. This reader
+accepts only complete files, and writes nothing to standard error.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Grid(NamedTuple):
 
 @contextlib.contextmanager
 def silence() -> Iterator[None]:
-    """Let VTK say nothing: what went wrong is asked for."""
+    """Suppress the output of VTK; the caller checks for errors."""
     before = vtkObject.GetGlobalWarningDisplay()
     vtkObject.GlobalWarningDisplayOff()
     try:

@@ -29,9 +29,9 @@ _AT_ONCE = 20_000
 
 @dataclass(frozen=True, eq=False)
 class SolidSnapshot:
-    """Arrays of N nodes, M tetrahedra, C contacts with K corners and P points, one after the other.
+    """Arrays of N nodes, M tetrahedra, and C contacts with K corners and P points in total.
 
-    Nodes lie grain after grain, the centre of each last.
+    Nodes are sorted by grain, with the centre of each grain last.
     """
 
     positions: FloatArray  #: of the nodes, (N, 3) [m]
@@ -106,7 +106,7 @@ class SolidSnapshot:
 
     @cached_property
     def fragments(self) -> Fragments:
-        """What hangs together: grains between which a point is not fully damaged."""
+        """Return the fragments: grains connected by a point that is not fully damaged."""
         bonded = self.any_of(self.point_damage < 1.0)
         return connected(self.contact_grains, bonded, self.volumes)
 
@@ -118,7 +118,7 @@ class SolidSnapshot:
 
     @property
     def grain_areas(self) -> FloatArray:
-        """Volume of each grain [m3]: what its fragments are measured by."""
+        """Volume of each grain [m3], the measure of the size of fragments."""
         return self.volumes
 
     @property
@@ -256,12 +256,12 @@ AnySnapshot = Snapshot | SolidSnapshot
 
 
 def drawn_state(state: AnySnapshot | None) -> Snapshot | None:
-    """What maps draw of a state: itself, or the section of a solid."""
+    """Return the state that maps show: the state itself, or the section of a 3D state."""
     return None if state is None else state.drawn
 
 
 def _turned(triangles: IntArray, places: FloatArray) -> IntArray:
-    """The same triangles, counter-clockwise."""
+    """Return the triangles with counter-clockwise corners."""
     a, b, c = (places[triangles[:, k]] for k in range(3))
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     return np.where((area < 0.0)[:, None], triangles[:, ::-1], triangles)
@@ -279,6 +279,6 @@ def _lengths(vectors: FloatArray) -> FloatArray:
 
 
 def _numbers(counts: IntArray) -> IntArray:
-    """0, 1, ... for each of the counts, one after the other."""
+    """Return 0, 1, ... for each count, concatenated."""
     found: IntArray = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
     return found

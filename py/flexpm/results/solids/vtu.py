@@ -49,10 +49,11 @@ class SolidShape:
 
 
 def write_solid_vtu(path: Path | str, shape: SolidShape) -> None:
-    """Write a solid as one VTK unstructured grid, whole or not at all.
+    """Write a 3D specimen as one VTK unstructured grid, completely or not at all.
 
-    Cell arrays: ``kind``, 0 of a tetrahedron and 1 of a contact; ``grain``, the grain of a
-    tetrahedron and the first one of a contact; ``neighbour``, the second one, -1 of a tetrahedron.
+    Cell arrays: ``kind``, 0 for a tetrahedron and 1 for a contact; ``grain``, the grain of a
+    tetrahedron or the first grain of a contact; ``neighbour``, the second grain of a contact, -1
+    for a tetrahedron.
 
     Args:
         path: Name of the file, ending in .vtu.
@@ -194,7 +195,7 @@ def _volumes(corners: FloatArray) -> FloatArray:
 def _grid_of(
     shape: SolidShape, points: Iterator[vtkDataArray], cells: Iterator[vtkDataArray]
 ) -> GridInTurn:
-    """The grid of a shape, with arrays of its own beside what all shapes have."""
+    """Return the grid of a shape, with additional arrays."""
     tetrahedra, contacts = len(shape.tetrahedra), len(shape.pairs)
     counts = (len(shape.nodes) + len(shape.vertices), tetrahedra + contacts)
 

@@ -23,7 +23,7 @@ def turned_stresses(stress: FloatArray, angle: FloatArray) -> FloatArray:
 
     Args:
         stress: xx, yy, xy, (M, 3) [Pa].
-        angle: One for each, (M,) [rad].
+        angle: Angle of each row, (M,) [rad].
     """
     xx, yy, xy = np.asarray(stress, dtype=float).T
     middle, half = 0.5 * (xx + yy), 0.5 * (xx - yy)
@@ -33,11 +33,11 @@ def turned_stresses(stress: FloatArray, angle: FloatArray) -> FloatArray:
 
 
 def means_by(values: FloatArray, weights: FloatArray, owners: IntArray, count: int) -> FloatArray:
-    """Weighted mean of the rows of each owner, (count, K); nan of one without a row.
+    """Return the weighted mean of the rows of each owner, (count, K); nan without a row.
 
     Args:
         values: Rows, (M, K).
-        weights: One for each row, (M,).
+        weights: Weight of each row, (M,).
         owners: Numbers of those that each row belongs to, (M, J).
         count: Number of owners.
     """

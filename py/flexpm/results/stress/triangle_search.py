@@ -77,14 +77,14 @@ def _number(squares: IntArray) -> IntArray:
 
 
 def _spans(first: IntArray, count: IntArray) -> IntArray:
-    """The numbers first, first + 1, ... of each span, one after the other."""
+    """Return the numbers first, first + 1, ... of all spans, concatenated."""
     begin = np.cumsum(count) - count
     spans: IntArray = np.arange(count.sum()) + np.repeat(first - begin, count)
     return spans
 
 
 def _contains(corners: FloatArray, points: FloatArray) -> IntArray:
-    """Whether each triangle has the point beside it."""
+    """Return whether each triangle contains its point."""
     start, end = corners, np.roll(corners, -1, axis=1)
     along, arm = end - start, points[:, None] - start
     left = along[..., 0] * arm[..., 1] - along[..., 1] * arm[..., 0]  # twice an area

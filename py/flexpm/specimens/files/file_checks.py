@@ -340,7 +340,7 @@ def _require_joints(found: Table, joints: int, tiling: Tiling) -> None:
 
 
 def _checksums(lines: Lines) -> Iterable[str]:
-    """Yield the checksums of joints that may have been cut one by one or several in a call."""
+    """Yield the checksums of joints that were cut in one call or in several calls."""
     names = [*lines]
     reached: dict[int, set[str | None]] = {0: {None}}
     for end in range(1, len(names) + 1):

@@ -17,7 +17,7 @@ FILE = GRAINS_FILE
 
 
 def save(folder: Path, specimen: AnySpecimen) -> None:
-    """Save a specimen that was made from what a script has given; others need no file."""
+    """Save a specimen of user-supplied cells, discs or spheres; packed specimens need no file."""
     if not specimen.spec.is_packed:
         specimen.save(folder / FILE)
 
@@ -26,7 +26,7 @@ def load(spec: AnySpec, folder: Path, progress: Progress | None = None) -> AnySp
     """Make the specimen of a run again: packed from its seed, or from its file.
 
     Args:
-        spec: What the specimen was made from.
+        spec: Inputs of the specimen.
         folder: Where the file is.
         progress: Called with (steps done, steps expected, text).
 

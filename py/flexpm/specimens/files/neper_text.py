@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Words of Neper's text files, one after the other, with their place for messages."""
+"""Reader of the words of Neper's text files, with their positions for messages."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ class Words:
 
     Args:
         path: The file, at most 64 MB.
-        what: What it is, for messages.
+        what: Type of the file, for messages.
 
     Attributes:
-        binary: What follows the first section of bytes; the words end before it.
+        binary: Content from the first section of bytes on; the words end before it.
 
     Raises:
         InputError: if it cannot be read.
@@ -82,7 +82,7 @@ class Words:
         return found
 
     def number(self, what: str) -> float:
-        """The next word as a number, whose square is one, too."""
+        """Return the next word as a number whose square is finite."""
         try:
             value = float(self._next)
         except ValueError:
@@ -135,7 +135,7 @@ def tess_dimension(words: Words) -> int:
     """Dimension of a tessellation, whose beginning is passed.
 
     Raises:
-        InputError: for a raster, an old format, or what is no tessellation.
+        InputError: for a raster, an old format, or a file that is not a tessellation.
     """
     if words.section == "***tesr":
         raise words.refused("section = ***tesr, must be ***tess; flexpm specimen image reads it")

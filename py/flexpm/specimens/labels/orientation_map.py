@@ -83,7 +83,7 @@ class OrientationMap:
         phase: Index of the phase of each point, -1 without a phase.
         orientations: Quaternions, (n, 4).
         grid: Positions of the points, with a point for each pixel.
-        missing: Number of points, the last ones, that were not measured.
+        missing: Number of points at the end that were not measured.
     """
 
     phases: list[Phase]

@@ -23,7 +23,7 @@ SIZES = {**PLANE_SIZES, **SOLID_SIZES}
 
 
 def spec_type(kind: object) -> type[SpecimenSpec] | type[SolidSpec]:
-    """The class of a kind's specs; that of the plane for what is no kind."""
+    """Return the class of the specs of a kind; the 2D class for an unknown kind."""
     return SolidSpec if is_solid(kind) else SpecimenSpec
 
 

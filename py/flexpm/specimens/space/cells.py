@@ -37,7 +37,7 @@ _SHARES = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
 
 
 def require_made_from(spec: SolidSpec, spheres: FloatArray, removed: int) -> None:
-    """Check that spheres of a file can be those of its spec: as many, as large; given ones alike.
+    """Check that the spheres of a file agree with its spec: their number and sizes.
 
     Raises:
         InputError: if they cannot.
@@ -91,7 +91,7 @@ def cells_of(
 
 
 def outline_of(spheres: FloatArray, spec: SolidSpec) -> Solid:
-    """What the cells fill; the facets of a cylinder follow the size of the grains."""
+    """Return the outline of the cells; the facets of a cylinder depend on the grain size."""
     mean = _mean_diameter(spheres)
     grain = 0.5 * sum(spec.diameters) if spec.diameters is not None else mean
     # a sphere out of all sense is refused by its number, when the cells are made

@@ -63,7 +63,7 @@ def write(path: Path, fields: Table) -> None:
 
 
 def is_one(path: Path) -> bool:
-    """Whether a file is that of a solid; one that cannot be read is none."""
+    """Return whether a file is a 3D specimen; False if it cannot be read."""
     try:
         with path.open(encoding="utf-8") as file:
             return FORMAT in file.read(len(FORMAT) + 40)
@@ -74,7 +74,7 @@ def is_one(path: Path) -> bool:
 def read(path: Path) -> Table:
     """Read the content of a file: ``spec``, ``removed_spheres``, ``spheres`` and the like.
 
-    A checksum tells that a file is as it was written, not that what was written has a sense.
+    The checksum detects changes of the file. It does not check that the content is valid.
 
     Raises:
         InputError: if it cannot be read, is no solid specimen, or was changed, or a value is none
@@ -96,6 +96,6 @@ def read(path: Path) -> Table:
 
 
 def checksum(content: Table) -> str:
-    """Checksum of what a file holds beside it."""
+    """Return the checksum of the other content of a file."""
     text = json.dumps(content, sort_keys=True, allow_nan=False)
     return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What spheres are packed into. Lengths in metres."""
+"""Containers of packings of spheres. Lengths in metres."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _ROUND = {
 
 @dataclass(frozen=True)
 class SolidFrame:
-    """Box from the origin, cylinder about the z axis, disc or half of one about the y axis, from 0.
+    """Box from the origin, cylinder from z = 0, or disc or half disc from y = 0 about the y axis.
 
     Attributes:
         kind: ``box``, ``cylinder``, ``solid-disc`` or ``solid-half-disc``.

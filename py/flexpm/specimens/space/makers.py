@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Constructors of 3D specimens, which ``Specimen`` has in addition to 2D ones. SI units."""
+"""Constructors of 3D specimens for ``Specimen``, in addition to the 2D constructors. SI units."""
 
 from __future__ import annotations
 

@@ -17,11 +17,11 @@ from .specimen import SolidSpecimen
 
 @dataclass(frozen=True, eq=False)
 class NotchedSolid(SolidSpecimen):
-    """A solid whose cells notches have cut: what a test is done on, no specimen to save.
+    """A 3D specimen whose cells are cut by notches: used for a test, not saved.
 
     Attributes:
-        whole: The solid before.
-        notches: x of each notch, z of its front as asked for [m], and whether it comes from above.
+        whole: The specimen without notches.
+        notches: x of each notch, requested z of its front [m], and whether it comes from above.
     """
 
     whole: SolidSpecimen | None = None
@@ -49,7 +49,7 @@ class NotchedSolid(SolidSpecimen):
         return [_flank_area(self.cells, walls + i) / across for i in range(len(self.notches))]
 
     def lines_of(self, joint: str) -> FloatArray:
-        """The notches as cut, see `lines`, whatever they are called."""
+        """Return the notches as cut, see `lines`, for any name of a joint."""
         return self.lines()
 
     def lines(self) -> FloatArray:
@@ -62,7 +62,7 @@ class NotchedSolid(SolidSpecimen):
         return np.array(ends)
 
     def outline(self) -> Solid:
-        """What the cells fill; flanks of notches are no walls of it."""
+        """Return the outline of the cells; flanks of notches are not part of it."""
         return self.before.outline()
 
 

@@ -101,7 +101,7 @@ class OwnCells:
         return call(own_polyhedra, self.vertices, faces, spheres, self.outline(spec), short)
 
     def outline(self, spec: SolidSpec) -> Solid:
-        """What the cells of a specimen fill: the mantle has the facets that they have."""
+        """Return the outline of the cells; its lateral surface has the facets of the cells."""
         grain = 1.0
         if spec.diameter is not None:
             grain = math.pi * spec.diameter / max(1, len(self.mantle()))
