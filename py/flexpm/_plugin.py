@@ -77,7 +77,7 @@ def import_yade() -> ModuleType:
 def _patient_threads() -> Iterator[None]:
     """Let threads of OpenMP, which is loaded now, sleep while they wait.
 
-    Else they keep the cores that those need for which they wait. What a user has set stays.
+    Else they keep the cores that those need for which they wait. Settings of the user are kept.
     """
     if _WAITING in os.environ:
         yield

@@ -48,7 +48,7 @@ _NO_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP)
 
 @contextlib.contextmanager
 def whole_file(path: Path | str) -> Iterator[Path]:
-    """Yield a temporary path; what the block has written there goes to `path` if it succeeds.
+    """Yield a temporary path; the written content replaces `path` if the block succeeds.
 
     The temporary name keeps the suffix of `path`, since some writers choose the format by it.
     A plain file is replaced, at the end of links that lead to it: a reader never sees a part of it,

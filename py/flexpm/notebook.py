@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a notebook shows of a thing: HTML, by functions that are registered for its class.
+"""HTML representations of objects in a notebook, by functions that are registered for a class.
 
-Things stand below what draws them, so they know this function alone.
+The objects belong to lower layers than the functions, so they only use this module.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ def html_of(thing: object) -> str | None:
 
 
 class Shown:
-    """What notebooks show by ``html_of``."""
+    """Base of objects that notebooks show by ``html_of``."""
 
     def _repr_html_(self) -> str | None:
         return html_of(self)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far a long computation has come: what it calls to tell its caller."""
+"""Progress of a long computation, and the functions that report it."""
 
 from __future__ import annotations
 

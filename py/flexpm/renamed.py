@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Old public names beside their new ones: they work in version 0.3 and go with 0.4.
+"""Old public names, which work in version 0.3 and are removed in version 0.4.
 
 All tables of names are here. `with_old_names` lets a class have them, each with a FutureWarning at
 the line of the caller; `current` and `with_old_keys` translate what files hold.
@@ -79,7 +79,7 @@ def warn(old: str, new: str) -> None:
 
 
 def present(name: str, names: Mapping[str, str], there: Container[str]) -> str:
-    """The present name of a column or a measure, with a warning where an old one was given.
+    """Return the present name of a column or a measure; warn of an old name.
 
     A name that is there, as of a gauge that a script has called so, stays.
     """
@@ -97,14 +97,14 @@ class OldName:
         self._old, self._new = old, new
 
     def __get__(self, one: object, owner: type | None = None) -> object:
-        """Return what has the new name."""
+        """Return the attribute with the new name."""
         if one is None:
             return self
         warn(f"{type(one).__name__}.{self._old}", self._new)
         return getattr(one, self._new)
 
     def __set__(self, one: object, value: object) -> None:
-        """Set what has the new name."""
+        """Set the attribute with the new name."""
         warn(f"{type(one).__name__}.{self._old}", self._new)
         setattr(one, self._new, value)
 

@@ -13,11 +13,11 @@ from .lines import Line
 
 
 def largest_bend(lines: Sequence[Line], contacts: FloatArray) -> float:
-    """Largest distance of contacts from their lines [m], each from the one that it follows best.
+    """Return the largest distance of contacts from their nearest lines [m].
 
     Args:
-        lines: Lines of a joint; they go on beyond their ends.
-        contacts: Contacts of the joint, places of both ends, (n, 2, 2) [m].
+        lines: Lines of a joint, which are extended beyond their ends.
+        contacts: Contacts of the joint, positions of both ends, (n, 2, 2) [m].
     """
     found = np.full(len(contacts), np.inf)
     for line in lines:

@@ -27,7 +27,7 @@ _ROUND_OFF = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Excavation:
-    """What lies within a closed line that is sawn into the cells.
+    """Content of a closed line that is cut into the cells.
 
     Attributes:
         name: Name of the line.
@@ -59,7 +59,7 @@ def ring_of(name: str, given: object, grain: float) -> FloatArray:
         grain: Mean diameter of the grains [m]; a circle has four chords for each along it.
 
     Raises:
-        InputError: for what is neither.
+        InputError: for other input.
     """
     if isinstance(given, Sequence) and len(given) == 2 and isinstance(given[1], Real):
         centre, radius = given
@@ -126,7 +126,7 @@ def line_from_edge(name: str, ring: FloatArray, edges: FloatArray) -> Line:
 def excavation_of(
     name: str, line: Line, cells: Sequence[FloatArray], pairs: IntArray, edges: FloatArray
 ) -> Excavation:
-    """What lies within a line: cells whose middle does.
+    """Return the cells whose middle is within a line.
 
     Args:
         name: Name of the excavation.

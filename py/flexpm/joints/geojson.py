@@ -51,8 +51,8 @@ def read(path: Path, name: str | None = None, origin: Point | None = None) -> Jo
         path: The file, at most 64 MB.
         name: Property whose value names the joint of a line; None: ``name`` where all lines have
             it, else all are one joint.
-        origin: Point of the map [m] for that of the specimen; None: the lower left corner of the
-            lines.
+        origin: Point of the map [m] at the origin of the specimen; None: the lower left corner of
+            the lines.
 
     Raises:
         InputError: if it cannot be read, is no GeoJSON, has angles for coordinates, no lines, a
@@ -109,7 +109,7 @@ def _refuse(name: str) -> NoReturn:
 
 
 def _system(label: str, crs: object) -> list[str]:
-    """Refuse angles; a note where the file does not say what its numbers are."""
+    """Reject angles; return a note if the file does not state its coordinate system."""
     if crs is None:
         return ["joints: crs is missing in the map, its numbers are taken as metres"]
     properties = crs.get("properties") if isinstance(crs, Mapping) else None

@@ -62,7 +62,7 @@ class Law:
         return made
 
     def broken(self) -> str:
-        """What numbers break together: quantity, value, rule, remedy; empty if nothing."""
+        """Return the violated rule of several numbers: quantity, value, rule, remedy; or empty."""
         return ""
 
 
@@ -78,7 +78,7 @@ def law_of(where: str, given: object, laws: Mapping[str, type[Kind]]) -> Kind:
         laws: Those that there are, by name.
 
     Raises:
-        InputError: for what is no table of one of them.
+        InputError: for input that is not a table of a law.
     """
     table = require_table(where, given)
     name = table.pop("law", None)

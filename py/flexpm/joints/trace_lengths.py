@@ -154,7 +154,7 @@ class Power(Lengths):
     """Power law between cut-offs: the density is proportional to the length to the -exponent.
 
     Attributes:
-        exponent: Above 2 [-]: else the mean is that of the upper cut-off, and no law has it.
+        exponent: Above 2 [-]: otherwise the upper cut-off determines the mean.
         smallest: Lower cut-off [m].
         largest: Upper cut-off [m].
     """

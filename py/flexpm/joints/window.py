@@ -58,13 +58,13 @@ class Window:
         return found
 
     def clipped(self, ends: FloatArray) -> FloatArray:
-        """What of segments lies within.
+        """Return the parts of segments within the window.
 
         Args:
             ends: Both ends of each, (n, 2, 2) [m].
 
         Returns:
-            Ends of those of which anything is left, in their order.
+            Ends of the remaining parts, in the order of the segments.
         """
         start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
         first, last = (self._in_circle if self.round else self._in_box)(start, way)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is told of a specimen before there is a run: how long that will take, how soft it is."""
+"""Estimates before a run: its duration, and the compliance of the contacts."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _RANGE = (0.45, 2.25)
 
 @dataclass(frozen=True)
 class Forecast:
-    """What a test will take."""
+    """Estimated cost of a test."""
 
     steps: tuple[int, int]  #: fewest and most
     seconds: tuple[float, float]  #: as many on this machine [s]
@@ -34,8 +34,8 @@ class Forecast:
 def forecast(specimen: Specimen) -> Forecast | None:
     """Steps of a compression of flexible grains, and their time on this machine.
 
-    The material is the default one, so that a specimen needs none; YADE's scene is emptied. A
-    guess, from what such tests took; one that passes no peak goes on to its largest strain.
+    The default material is used, because a specimen has none; YADE's scene is emptied. The estimate
+    is based on similar tests; a test without a peak continues to its largest strain.
 
     Args:
         specimen: A rectangle or a disc; None is returned for any other.

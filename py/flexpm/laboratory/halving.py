@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests that are loaded again at half the rate until they are slow enough. Deviation D75. SI units.
+"""Tests that are repeated at half the rate until they are quasi-static. Deviation D75. SI units.
 
-A test that is slow enough at once is done once: the limits of ``not_quasistatic`` stand where
-halving the rate moves the mean peak by less than 2 %. One that is not goes on until it is, and
-until its peak stands still.
+If the first run is quasi-static, the test is not repeated: the limits of ``not_quasistatic`` are at
+rates whose halving changes the mean peak by less than 2 %. Otherwise the test is repeated until it
+is quasi-static and its peak does not change.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def rate_of(spec: RunSpec, loadings: int) -> float:
 
 
 def loading(result: Result, rate: float, first_step: int) -> Table:
-    """What a loading gave and took.
+    """Result and cost of a loading.
 
     Args:
         result: The test with this loading.
@@ -59,7 +59,7 @@ def is_over(spec: RunSpec, loadings: Sequence[Table]) -> bool:
 
 
 def conclude(result: Result, loadings: Sequence[Table]) -> None:
-    """Put the loadings of a run into its result; one whose peak still moves was too fast."""
+    """Store the loadings of a run in its result; if the peak still changes, it was too fast."""
     result.rates = [*loadings]
     result.final_rate = loadings[-1]["rate"]
     if _moves(loadings):
@@ -73,7 +73,7 @@ def foreseen(spec: RunSpec, last: Table) -> tuple[int, float]:
 
 
 def told(spec: RunSpec, loadings: Sequence[Table]) -> str:
-    """In one line what the last loading gave and what the next one, at half its rate, will take."""
+    """Return one line with the last result and the expected cost at half the rate."""
     last = loadings[-1]
     steps, seconds = foreseen(spec, last)
     peak = last["peak_stress"]

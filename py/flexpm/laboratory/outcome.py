@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The result of a run: that of its rig, and what its test says of it. SI units."""
+"""Result of a run: the result of its rig, and the measures of its test. SI units."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .part_tests import measure
 
 
 def outcome(rig: TestRig, spec: RunSpec) -> Result:
-    """Measure what a finished test has left in its rig and its scene."""
+    """Compute the measures of a finished test from its rig and its scene."""
     waiting = spec.loading == "waiting"
     result = result_of(rig, spec.test, _largest_unbalanced(spec), waiting=waiting)
     result.inputs = spec.to_json()

@@ -37,10 +37,10 @@ def repeat(
     A folder with a part of the same test is gone on from.
 
     Args:
-        file: Its result.json, beside the grains that no packing gives again.
-        test: What it began with and its calls, see ``asked.read_own``.
+        file: Its result.json, in a folder with the file of grains that are not packed.
+        test: Its inputs and its calls, see ``asked.read_own``.
         threads: Threads of a step.
-        leaves: What is left, with ``out``, as for ``flexpm.rig``.
+        leaves: Written files, with ``out``, as for ``flexpm.rig``.
 
     Raises:
         InputError: for calls that this version does not know, or a folder of something else.

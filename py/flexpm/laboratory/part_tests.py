@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests whose specimen is held and loaded by parts: cut, laid and measured as their kind says. SI.
+"""Tests whose specimen is fixed and loaded by parts: cuts, parts and measures of their kind. SI.
 
-What a kind knows are plain numbers; here they meet specimen, material and rig.
+A kind has plain numbers only; this module applies them to specimen, material and rig.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ def part_rig(built: Model, spec: RunSpec, runner: Runner | None) -> PartRig:
 
 
 def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
-    """Fill what the test measures beside its peak."""
+    """Fill the additional measures of the test."""
     if spec.kind.measure is None:
         return
     frame = _frame_of(spec, rig.built)
@@ -131,7 +131,7 @@ def measure(result: Result, rig: PartRig, spec: RunSpec) -> None:
 
 
 def notch_depth(specimen: Specimen) -> float:
-    """How far the notch has been cut from the bottom [m]; 0 without one. Deviation D35."""
+    """Return the depth of the notch from the bottom [m]; 0 without a notch. Deviation D35."""
     bottom = specimen.corners[0][1]
     return float(np.max(specimen.lines_of(_NOTCH)[..., 1], initial=bottom)) - bottom
 

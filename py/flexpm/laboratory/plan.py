@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a run will do and where, refused before YADE's scene is touched if it cannot be done."""
+"""Plan of a run; impossible inputs are rejected before YADE's scene is changed."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def plan_run(
     checkpoint_interval: float = INTERVAL,
     output: Output | None = None,
 ) -> Plan:
-    """Refuse what a run could not do, before YADE's scene is touched.
+    """Reject impossible inputs of a run before YADE's scene is changed.
 
     Args:
         spec: The run.
@@ -52,11 +52,11 @@ def plan_run(
         material: The material that `spec` describes.
         out: Folder for the files of the result; None writes nothing.
         checkpoint_interval: Wall time between two checkpoints [s], > 0.
-        output: What is written beside the results; None for the default.
+        output: Additional files; None for the default.
 
     Raises:
-        InputError: for a test that is no simulation, grains that have no contact and need one, a
-            checkpoint of other inputs in `out`, or frames of a run that is complete there.
+        InputError: for a test without simulation, grains without a contact that the test needs, a
+            checkpoint of other inputs in `out`, or frames of a run that is already complete.
     """
     output = output or Output()
     if out is None and output.frames:

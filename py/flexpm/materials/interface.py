@@ -116,7 +116,7 @@ class Interface:
         return changed
 
     def factor_of(self, key: str) -> object:
-        """Factor of a key [-]: the given one, the implied one of a fracture energy, or 1."""
+        """Return the factor of a key [-]: given, implied for a fracture energy, or 1."""
         return {**self._implied(), **self.factors}.get(key, 1.0)
 
     def _implied(self) -> dict[str, float]:

@@ -109,8 +109,7 @@ class Model:
             steps: Number of steps.
 
         Raises:
-            RuntimeError: if a number is no longer finite, or the scene is no longer that of the
-                model.
+            RuntimeError: if a number is no longer finite, or the scene no longer has the model.
         """
         if self.solver not in yade.O.engines:
             raise SimulationError(
@@ -207,8 +206,8 @@ class Model:
     def parting(self, state: AnySnapshot) -> tuple[int | None, float]:
         """Loose grains, and how far any has parted from a neighbour, see `GrainSolver.parting`.
 
-        The second is the growth of a distance of centres, in mean diameters of the grains [-]. The
-        present state is given by who has it: that of a large solid takes gigabytes.
+        The second is the increase of a distance between centres [mean diameters]. The caller passes
+        the present state, because the state of a large 3D specimen takes gigabytes.
         """
         apart = state.parting
         if apart is not None:  # of a solid, whose contacts never end: no grain is known to be loose

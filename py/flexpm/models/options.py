@@ -75,7 +75,7 @@ def require_model(label: str, model: str, known: Sequence[str], *, solid: bool) 
         label: Begin of the message: function and argument.
         model: Its name.
         known: Names of the models that are available.
-        solid: Whether they are those of a 3D specimen.
+        solid: Whether the specimen is 3D.
 
     Raises:
         InputError: for another model.

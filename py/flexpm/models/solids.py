@@ -90,11 +90,11 @@ def _elastic_of_rigid(specimen: SolidSpecimen, chosen: Material) -> dict[str, fl
 def elastic_of_solid(specimen: SolidSpecimen, chosen: Material, model: str) -> dict[str, float]:
     """Elastic constants along z by conjugate gradients; see ``flexpm.elastic``.
 
-    Rigid grains lie between plates that they are bonded to; their strains are those of a test.
+    Rigid grains are bonded to plates; their strains are measured as in a test.
 
     Raises:
-        InputError: for a model that solids do not have, or minerals that do not go together.
-        SimulationError: if the forces do not come to balance.
+        InputError: for a model that is not available in 3D, or incompatible minerals.
+        SimulationError: if the forces do not reach equilibrium.
     """
     require_model(f"elastic: model for a {specimen.kind}", model, SOLID_MODELS, solid=True)
     if "height" not in specimen.dimensions:

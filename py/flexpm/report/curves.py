@@ -107,8 +107,8 @@ def volumes_of(result: Result) -> Volumes | None:
     if peak is not None and modulus is not None and ratio is not None:
         elastic = core.elastic_volumetric_strain(record, modulus, ratio, solid=solid)[:end]
         initiation = result.crack_initiation_stress_volumetric
-        lines.append(VolumeLine("elastic", elastic, dashed=True))
-        lines.append(line("cracks", total - elastic, initiation, begun))
+        lines.append(VolumeLine("elastic strain", elastic, dashed=True))
+        lines.append(line("crack strain", total - elastic, initiation, begun))
     name = "volumetric strain" if solid else "area strain"
     told = "" if peak is None else " up to the peak"
     return Volumes(name, f"{name.capitalize()}{told}{_state(result)}", lines)

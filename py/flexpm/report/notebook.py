@@ -125,7 +125,7 @@ def _draw_law(path: Path, law: Law) -> None:
 
 
 def _picture(draw: Callable[[Path], None]) -> str:
-    """What a function draws into a file, as text; empty if it draws nothing."""
+    """Return the picture that a function plots, in base64; empty without a plot."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "picture.png"
         draw(path)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rose diagrams of fracture networks: what was asked for beside what was drawn and cut."""
+"""Rose diagrams of fracture networks: requested, generated and cut traces."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Acoustic emission: points that crack close in time and space are one event. SI units.
 
-Deviation D41: what belongs to one event. Deviation D42: its magnitude, from the energy that damage
+Deviation D41 defines an event. Deviation D42: its magnitude, from the energy that damage
 took, by Gutenberg and Richter: log10 E = 1.5 M + 4.8.
 """
 

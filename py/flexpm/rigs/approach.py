@@ -78,7 +78,7 @@ class Approach:
         """Adapt the velocity after a row; whether the stress is reached, or zero.
 
         Args:
-            first_step: That with which the stage begins.
+            first_step: Value at the beginning of the stage.
         """
         step, stress, period = yade.O.iter, self._rig.stress, self._rig.row_period
         has_row = step - first_step >= period

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a run is: what determines it, how fast it goes, how it is stepped, saved and told."""
+"""Runs: inputs, loading rate, stepping, checkpoints and description."""

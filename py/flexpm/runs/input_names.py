@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names of what can be asked of a run, which test has a use for which, and their units.
+"""Names of the inputs of a run, their units, and the tests that use them.
 
 Nothing heavy is loaded here, so that inputs are checked before YADE starts.
 """
@@ -96,7 +96,7 @@ def takes_range(model: object) -> bool:
 
 
 def ranges(models: Sequence[str], interaction_range: float | None) -> dict[str, float | None]:
-    """Interaction range of each model; only YADE's spheres have one.
+    """Return the interaction range of each model, which only YADE's spheres use.
 
     Raises:
         InputError: if it is given and none of the models can have it.

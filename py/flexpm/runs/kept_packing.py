@@ -46,7 +46,7 @@ def kept(folder: Path, spec: AnySpec) -> tuple[AnySpecimen | None, str]:
 
     Args:
         folder: Folder of the run.
-        spec: What the specimen is made from.
+        spec: Inputs of the specimen.
 
     Returns:
         The specimen, or None and a line that says why its file is not used. The line is empty

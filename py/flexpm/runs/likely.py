@@ -24,7 +24,7 @@ _CONFINED = 10.0
 
 @dataclass(frozen=True)
 class Softening:
-    """What softens in a test: the mean contact."""
+    """Mean contact of a test, which softens."""
 
     opening: float = 0.0  #: at which it has lost its tensile strength [m]
     slip: float = 0.0  #: at which it has lost its cohesion [m]

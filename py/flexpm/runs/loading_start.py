@@ -62,7 +62,7 @@ class LoadingStart:
         )
 
     def restore(self) -> None:
-        """Replace YADE's scene by the one that was kept."""
+        """Replace YADE's scene by the saved scene."""
         if self._file is None:
             with for_scenes():
                 yade.O.loadTmp(_MARK, quiet=True)

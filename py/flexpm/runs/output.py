@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a run writes beside its results, and folders that hold others'; no result depends on it."""
+"""Additional files of a run, and folders with other results; no result depends on them."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ BEGUN = "checkpoint.json"
 
 
 def kind_of(folder: Path) -> str | None:
-    """What has left its results in a folder; None: nothing has."""
+    """Return the type of the results in a folder; None without results."""
     return next((kind for name, kind in KINDS.items() if (folder / name).is_file()), None)
 
 
@@ -52,7 +52,7 @@ def refuse_other_kind(folder: Path, kind: str) -> None:
 
 
 def is_of_flexpm(result: Path) -> bool:
-    """Whether a result.json is flexpm's, or was one before it was damaged."""
+    """Return whether a result.json was written by flexpm, also if it is damaged."""
     try:
         content = read_json(result)
     except (OSError, ValueError, RecursionError):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks of the inputs of a run, and what those become that are left to follow. SI units."""
+"""Checks of the inputs of a run, and the values of inputs that were left out. SI units."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ class Span(NamedTuple):
 
 
 class Runner:
-    """Runs the stages of a test one after the other; a resumed run skips finished stages.
+    """Runs the stages of a test in sequence; a resumed run skips finished stages.
 
     YADE's scene and `position` have all data that a stage needs to continue.
 

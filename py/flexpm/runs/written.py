@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the result of a run leaves in its folder: numbers, record, cracks, state and pictures."""
+"""Files of the result of a run: numbers, record, cracks, state and figures."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def draw_pictures(
 
 
 def about(inputs: Table | None) -> Table:
-    """What a file for ParaView says of its run."""
+    """Return the description of a run for a ParaView file."""
     if inputs is None:
         return {}
     specimen, material = inputs["specimen"], inputs["material"]

@@ -41,7 +41,7 @@ def tell(cells: AssemblyInput, inner: InnerCells, model: str) -> None:
 
 
 def rectangle_like(specimen: Specimen) -> Specimen:
-    """A rectangle of grains like those of another specimen, to measure its elastic constants."""
+    """Return a rectangle of grains as in another specimen, to measure its elastic constants."""
     side = _ACROSS * specimen.mean_diameter
     diameters = (2.0 * float(specimen.radii.min()), 2.0 * float(specimen.radii.max()))
     seed = 0 if specimen.seed is None else specimen.seed

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reasons why runs of a calibration have no measure, and what to change."""
+"""Reasons why runs of a calibration have no measure, and remedies."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _LONGEST = 120
 
 
 def loss(plan: Calibration, target: Target, outcomes: Outcomes, seeds: Sequence[int]) -> str:
-    """Tell why some packings have no value of a measure, and what to change.
+    """Return the reasons why packings have no value of a measure, and remedies.
 
     Args:
         plan: The calibration.
@@ -58,6 +58,6 @@ def _reason(run: Table) -> tuple[str, str]:
 
 
 def _size(runs: Sequence[Table]) -> str:
-    """Number of grains of the first run that has one."""
+    """Return the number of grains of the first run with this number."""
     found = [run["result"]["grains"] for run in runs if run.get("result", {}).get("grains")]
     return f" of {found[0]:.0f} grains" if found else ""

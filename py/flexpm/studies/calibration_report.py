@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a calibration found: table, picture of targets and results, preset. SI units, degrees."""
+"""Report of a calibration: table, figure of targets and results, preset. SI units, degrees."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcom
 
 
 def _tested_on(plan: Calibration) -> list[str]:
-    """What the results are of."""
+    """Specimens of the results."""
     packings = ", ".join(map(str, plan.verify.seeds))
     discs = ", ".join(map(str, plan.verify.disc_seeds))
     if not packings:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a calibration says of itself: what to try where a target is missed, which keys stay open.
+"""Assessment of a calibration: remedies for missed targets, and undetermined keys.
 
 How measures follow keys is read from the sets that were tried, as a plane through logarithms.
 """
@@ -82,7 +82,7 @@ class Verdict:
 
 
 def forget(folder: Path) -> None:
-    """Remove the verdict of an earlier calibration, which is none of the one that begins."""
+    """Remove the verdict of an earlier calibration."""
     (folder / FILE).unlink(missing_ok=True)
 
 
@@ -106,7 +106,7 @@ def slopes(tried: Sequence[Tried], keys: Sequence[str], aims: Sequence[Aim]) -> 
 
 
 def _with_measure(tried: Sequence[Tried], aim: Aim) -> list[tuple[Tried, float]]:
-    """Sets of values with the mean of a measure, those that have one."""
+    """Return the sets of values for which the mean of a measure exists."""
     means = [(one, one.mean(aim.name)) for one in tried]
     return [(one, mean) for one, mean in means if mean is not None and mean > 0.0]
 
@@ -141,7 +141,7 @@ def advice(
     used_up: bool,
     losses: Mapping[str, str] | None = None,
 ) -> list[str]:
-    """What to try, a line for each reason why targets are missed.
+    """Return a remedy for each reason why targets are missed.
 
     Args:
         missed: Targets that are missed.
@@ -246,7 +246,7 @@ def judge(
 
 
 def _loss(tried: Sequence[Tried], aim: Aim) -> str:
-    """Tell that most sets of a search had no value of a measure; empty if most had one."""
+    """Return a warning if most sets of a search had no value of a measure; else an empty text."""
     lost = [one for one in tried if one.mean(aim.name) is None]
     if 2 * len(lost) <= len(tried):
         return ""
@@ -255,7 +255,7 @@ def _loss(tried: Sequence[Tried], aim: Aim) -> str:
 
 
 def _measure(aim: Aim, best: Tried, told: Sequence[str]) -> Table:
-    """Result and target of a measure, and what to change."""
+    """Return result and target of a measure, and a remedy."""
     mean, start = best.mean(aim.name), f"{aim.name}: "
     return {
         "name": aim.name,

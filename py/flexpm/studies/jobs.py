@@ -92,8 +92,8 @@ class Job:
         inputs: What was asked for, flat: ``test``, options by name, ``set.KEY`` for the material.
         arguments: Arguments of the command, without the folder.
         spec: All that determines the outcome.
-        place: Folder of the run below that of all; empty for the key.
-        output: What the run writes beside its results.
+        place: Folder of the run below the common folder; empty for the key.
+        output: Additional files of the run.
     """
 
     inputs: Table

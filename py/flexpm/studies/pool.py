@@ -49,7 +49,7 @@ def require_workers(workers: int, cores: int) -> None:
 
 
 class _Cluster(Protocol):
-    """What is used of the clusters of Dask and dask-jobqueue."""
+    """Interface of the clusters of Dask and dask-jobqueue."""
 
     def scale(self, n: int) -> object: ...
 

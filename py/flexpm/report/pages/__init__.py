@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pages for a browser, each one file that fetches nothing: their parts, maps, and that of a run."""
+"""HTML reports, each a single self-contained file: parts, maps, and the report of a run."""

@@ -139,7 +139,7 @@ class OwnCells:
 
     @classmethod
     def of_file(cls, content: Table) -> OwnCells | None:
-        """Cells that a file holds; None if its cells are those of spheres.
+        """Return the cells of a file; None if its cells follow from spheres.
 
         Raises:
             InputError: for cells that are not those the file says it was made from.
