@@ -117,7 +117,7 @@ class Renamed(dict[str, Value]):
         values: Mapping[str, Value] | Iterable[tuple[str, Value]] = (),
         names: Mapping[str, str] | None = None,
     ) -> None:
-        """Take values by their new names, and the new names of the old ones."""
+        """Store values by their new names, and the new name of each old name."""
         super().__init__(values)
         self._names = names or {}
 
@@ -146,7 +146,7 @@ def with_old_names(owner: Class) -> Class:
 
 
 def current(content: Table) -> Table:
-    """The content of a result.json, or inputs of one, under the present names alone."""
+    """Return the content or inputs of a result.json with present names only."""
     return _translated(content, _to_new)
 
 
@@ -213,7 +213,7 @@ def _with_new_by(given: Table) -> Table:
 
 
 def _to_new(table: Table, names: Mapping[str, str]) -> Table:
-    """Old keys renamed; left out where the new ones are there as well."""
+    """Rename old keys; an old key is left out if its new key exists."""
     return {
         names.get(key, key): value
         for key, value in table.items()

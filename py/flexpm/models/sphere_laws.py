@@ -78,8 +78,8 @@ class SphereLaw(ABC):
         """Tell whether the law has broken a bond.
 
         Args:
-            bond: Its properties, kept since it was made.
-            place: Its geometry, likewise; that of its last step.
+            bond: Properties of the contact, kept since its creation.
+            place: Geometry of the contact at its last step.
         """
 
     @abstractmethod

@@ -24,8 +24,8 @@ class Group:
 
     Attributes:
         label: Model and confinement.
-        curves: What the test draws over what, as axial stress [Pa] over axial strain [-], x first,
-            and whether the run counts in the means.
+        curves: Plotted quantities, such as axial stress [Pa] over axial strain [-], x first, and
+            whether the run counts in the means.
         peak: Mean strain [-] and stress [Pa] of the peaks, nan without any.
         scatter: Their standard deviations, nan for fewer than two peaks.
         count: How many of the runs count, in words.
@@ -41,7 +41,7 @@ class Group:
 def packings_picture(path: Path | str, test: str, groups: Sequence[Group]) -> None:
     """Draw the records of all packings and the mean peaks with their standard deviations.
 
-    Runs that failed are dotted; those with numbers beyond any picture are left out.
+    Failed runs are dotted; runs that cannot be plotted are left out.
 
     Args:
         path: Picture to write.

@@ -108,7 +108,7 @@ def _titles_of(axes: Axes) -> list[Text]:
 
 
 def _overhang(figure: Figure, title: Text) -> float:
-    """Width of a title beyond the pad of a figure [pixel]; a centred one has it on both sides."""
+    """Return the width of a title beyond the pad of a figure [pixel], on both sides if centred."""
     box, pad = title.get_window_extent(), _PAD * float(figure.dpi)
     right = float(box.x1 - (figure.bbox.width - pad))
     if title.get_ha() == "center":
@@ -117,7 +117,7 @@ def _overhang(figure: Figure, title: Text) -> float:
 
 
 def colour_limits(values: FloatArray) -> tuple[float, float]:
-    """Values between which colours go, without the singular ones; any if there is none."""
+    """Return the limits of a colour scale, without singular values; 0 and 1 without values."""
     known = values[np.isfinite(values)]
     if not len(known):
         return 0.0, 1.0
@@ -126,7 +126,7 @@ def colour_limits(values: FloatArray) -> tuple[float, float]:
 
 
 def can_be_drawn(places: FloatArray) -> bool:
-    """Whether points (N, 2) fit into a picture; those of a run that diverged may not."""
+    """Return whether points (N, 2) can be plotted; points of a diverged run may be too far."""
     if not (len(places) and np.all(np.abs(places) < _LARGEST)):
         return False
     width, height = np.ptp(places, axis=0)

@@ -70,7 +70,7 @@ def table(rows: Iterable[tuple[str, str]], title: str = "") -> str:
 
 
 def scaled(value: float | None, factor: float, unit: str, digits: int = 4) -> str:
-    """`value` times `factor` with its unit, or a dash for one that is missing or not finite."""
+    """Return `value` times `factor` with its unit, or a dash if it is missing or not finite."""
     if value is None or not math.isfinite(value):
         return "-"
     return f"{factor * value:#.{digits}g}".rstrip(".") + (f" {unit}" if unit else "")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a result.json is that of a test: types, counts, and what pages and warnings read."""
+"""Checks of a result.json: types, counts, and the values that reports and warnings read."""
 
 from __future__ import annotations
 

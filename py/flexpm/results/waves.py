@@ -64,10 +64,10 @@ def centre(time: FloatArray, displacement: FloatArray) -> float:
 
 
 def speed(curve: Curve, distance: float) -> float | None:
-    """Speed by the travel time of the pulse's centre from one section to the other [m/s].
+    """Return the speed from the travel time of the pulse centre between both sections [m/s].
 
-    None if a section still moves at the end of the record, or if the upper section has hardly
-    moved: the pulse has not passed as one.
+    None if a section still moves at the end of the record, or if the upper section has barely
+    moved: the pulse was scattered.
 
     Args:
         curve: With the columns of the displacements and of the time.

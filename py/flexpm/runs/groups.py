@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Groups of the options of a run: each option has its name, unit, default and help here alone.
+"""Groups of the options of a run: only here each option has its name, unit, default and help.
 
-``flexpm.run``, the command, studies and ``rerun`` take them from here; those of single tests are
+``flexpm.run``, the command, studies and ``rerun`` use these groups. Options of single tests are
 declared in ``kinds``. SI units.
 """
 

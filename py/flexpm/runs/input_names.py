@@ -41,7 +41,7 @@ OF_THE_PLANE = tuple(name for name in ("thickness", *DECLARED) if name in FEATUR
 
 
 def unused(test: str, shape: object = None) -> tuple[str, ...]:
-    """Options that a test has no use for on a shape; None: that of the test in the plane."""
+    """Return the options that a test does not use for a shape; None: the 2D shape of the test."""
     kind = KINDS[test]
     if shape not in kind.solids:
         shape = kind.shape
@@ -76,9 +76,9 @@ def with_unit(name: str, value: object) -> str:
 
 
 def paced(rate: float | str, halvings: int | None = None) -> tuple[float, int | None]:
-    """Rate and halvings of a run from what was asked for: ``auto`` stands for both.
+    """Return rate and halvings of a run from the requested rate; ``auto`` determines both.
 
-    What is no rate is left to the checks of a run.
+    Other input than a rate is rejected by the checks of a run.
     """
     if rate != AUTO:
         return cast(float, rate), halvings
@@ -110,7 +110,7 @@ def ranges(models: Sequence[str], interaction_range: float | None) -> dict[str, 
 
 
 def shape_of(test: str, shape: object = None, depth: object = None) -> str:
-    """Shape of a test's specimen: what is asked for, by a depth the only solid that it may have."""
+    """Return the shape of a specimen: the requested shape, or with a depth the only 3D shape."""
     kind = kind_of(test)
     if shape:
         return str(shape)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The packing of a run in its folder, which spares a resumed run minutes. Lengths in metres.
+"""Saved packing of a run, which saves a resumed run minutes. Lengths in metres.
 
-The file is that of ``Specimen.save``, and ``checkpoint.json`` holds its checksum: a file that is
-missing, damaged or of another run is never used, and the run packs from its seed again.
+The file is written by ``Specimen.save``, and ``checkpoint.json`` has its checksum. A file that is
+missing, damaged or belongs to another run is not used: the run packs from its seed again.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def kept(folder: Path, spec: AnySpec) -> tuple[AnySpecimen | None, str]:
 
 
 def difference(folder: Path, made: AnySpecimen) -> str:
-    """Say in one line how a packing differs from the one in a folder; empty if it does not.
+    """Return one line on how a packing differs from the packing in a folder; empty if equal.
 
     Args:
         folder: Folder of an earlier run; without a packing there is nothing to compare.

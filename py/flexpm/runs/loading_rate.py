@@ -205,7 +205,7 @@ def _waiting(rates: Rates, model: str, damage_share: float) -> tuple[float, tupl
 
 
 def _fastest_ends(rates: Rates, model: str, rate: float) -> float:
-    """Return the largest velocity factor of servo-driven ends [-]: that of a waiting loading."""
+    """Return the largest velocity factor of servo-driven ends [-], as of a waiting loading."""
     if rates.running_share is None:
         raise InputError(
             f"Loading: control, must be left out for model {model}; it is for "

@@ -61,10 +61,10 @@ def is_of_flexpm(result: Path) -> bool:
 
 
 def refuse_other_result(folder: Path, spec: RunSpec) -> None:
-    """Refuse a folder with the result.json of another run, or of another program.
+    """Reject a folder with the result.json of another run, or of another program.
 
     Raises:
-        InputError: if it holds one.
+        InputError: if the folder has such a file.
     """
     file = folder / RESULT
     if not file.exists():

@@ -196,10 +196,10 @@ def _check_test(run: RunInputs) -> None:
 
 
 def require_shape(kind: TestKind, shape: str) -> None:
-    """Refuse a shape that a test does not take.
+    """Reject a shape that a test does not support.
 
     Raises:
-        InputError: naming that of the plane, which it takes, and of solids those of its own.
+        InputError: with the 2D shape and the 3D shapes of the test.
     """
     if shape not in kind.variants:
         hint = kind.other_hint if is_solid(shape) != is_solid(kind.shape) else ""

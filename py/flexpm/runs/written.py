@@ -45,7 +45,7 @@ def write_files(
         folder: It exists.
         result: The result.
         notches: Numbers of the contacts that were cut open before the test.
-        joints: Those of other joints.
+        joints: Indices of the contacts of other joints.
     """
     write_numbers(folder, result)
     draw_pictures(folder, result, notches, joints)
@@ -54,7 +54,7 @@ def write_files(
 def write_so_far(folder: Path, result: Result) -> None:
     """Write numbers, record and cracks of a run that has not ended into `folder`, which exists.
 
-    The numbers go to unfinished.json: a folder without result.json is that of an unfinished run.
+    The numbers are written to unfinished.json: a folder without result.json has an unfinished run.
     """
     result.status = UNFINISHED
     result.write(folder, SO_FAR)

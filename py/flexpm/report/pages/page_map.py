@@ -136,8 +136,8 @@ def _bar(scale: float, width: float) -> tuple[int, str]:
 def _outlines(drawing: Snapshot, scale: float, corner: FloatArray) -> list[str]:
     """Path of each grain: the edges of its triangles that no other one shares.
 
-    Nodes that lie in one place of the map are one, so that thin triangles become lines, which may
-    leave an edge several times.
+    Nodes with equal positions on the map are merged, so that thin triangles become lines, and an
+    edge may occur several times.
     """
     nodes = _units(drawing.positions, scale, corner)
     grains = int(drawing.triangle_grain.max(initial=-1)) + 1

@@ -129,7 +129,7 @@ class SolidSnapshot:
 
     @property
     def principal_stresses(self) -> FloatArray:
-        """Those of each tetrahedron, the smallest first, (M, 3) [Pa]; nan if any is no number."""
+        """Principal stresses of each tetrahedron, ascending, (M, 3) [Pa]; nan if not finite."""
         rows, stress = [0, 5, 4, 5, 1, 3, 4, 3, 2], self.tetrahedron_stress
         found = np.full((len(stress), 3), np.nan)
         if np.all(np.isfinite(stress)):

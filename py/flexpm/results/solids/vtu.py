@@ -231,7 +231,7 @@ def _plain(name: str, array: vtkDataArray) -> vtkDataArray:
 
 
 def _of_grains(snapshot: SolidSnapshot) -> Iterator[vtkDataArray]:
-    """Arrays of tetrahedra, one alive at a time: that of all stresses is a tenth of a state."""
+    """Yield arrays of tetrahedra one by one, because all stresses are a tenth of a state."""
     grain, mineral = snapshot.tetrahedron_grain, snapshot.grain_mineral
     rows = len(grain) + len(snapshot.contact_grains)
 
