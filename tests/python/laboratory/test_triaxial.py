@@ -136,7 +136,7 @@ def test_the_command_and_its_repetition(tmp_path, capsys, monkeypatch):
     assert read.second_confinement == 9e6
     assert set(read.curve["second_confinement"]) == {9e6}
     assert set(read.curve["confinement"]) == {5e6}
-    (line,) = [line for line in told.splitlines() if "confinement" in line]
+    (line,) = [line for line in told.splitlines() if "confining pressure" in line]
     assert line.split() == ["confining", "pressure", "5.000", "and", "9.000", "MPa"]
     assert "confining pressure 5 and 9 MPa" in _caption(read)
     assert tables.test_text(read).startswith("triaxial under 5 and 9 MPa, ")
