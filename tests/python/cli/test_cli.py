@@ -231,7 +231,10 @@ def test_disc_specimen(capsys, tmp_path):
 def test_signals_end_the_command_with_one_line(tmp_path, number, code):
     arguments = ["specimen", "rectangle", "--diameters", "0.4e-3,0.8e-3", "--out", str(tmp_path)]
     process = started(*arguments)  # a packing that takes minutes
-    time.sleep(4.0)
+    while "_flexpm.so" not in Path(f"/proc/{process.pid}/maps").read_text():
+        assert process.poll() is None
+        time.sleep(0.01)
+    time.sleep(1.0)
     assert process.poll() is None
     process.send_signal(number)
     output, errors = process.communicate(timeout=600)

@@ -3,9 +3,10 @@
 /// them.
 #pragma once
 
+#include <flexpm/kernel/core/memory.hpp>
+
 #include <cstddef>
 #include <new>
-#include <sys/mman.h>
 #include <vector>
 
 namespace flexpm {
@@ -31,8 +32,7 @@ template <class T> struct AlignedAllocator {
     T* allocate(std::size_t n)
     {
         void* const p = ::operator new(n * sizeof(T), alignment(n));
-        // where Linux refuses, the small pages stay
-        if (n * sizeof(T) >= 2 * large_page) madvise(p, n * sizeof(T), MADV_HUGEPAGE);
+        if (n * sizeof(T) >= 2 * large_page) ask_for_large_pages(p, n * sizeof(T));
         return static_cast<T*>(p);
     }
     void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }

@@ -2,6 +2,7 @@
 #include <flexpm/kernel/core/memory.hpp>
 
 #include <malloc.h>
+#include <sys/mman.h>
 
 namespace flexpm {
 
@@ -11,5 +12,7 @@ void give_back_memory()
     malloc_trim(0);
 #endif
 }
+
+void ask_for_large_pages(void* first, std::size_t bytes) { madvise(first, bytes, MADV_HUGEPAGE); }
 
 }  // namespace flexpm
