@@ -72,7 +72,7 @@ def require_model(label: str, model: str, known: Sequence[str], *, solid: bool) 
     """Refuse a model that is not one of a few.
 
     Args:
-        label: Begin of the message: function and argument.
+        label: Beginning of the message: function and argument.
         model: Its name.
         known: Names of the models that are available.
         solid: Whether the specimen is 3D.

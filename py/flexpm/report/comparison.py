@@ -39,7 +39,7 @@ def curves_picture(path: Path | str, runs: Runs) -> None:
 
     Args:
         path: Picture to write.
-        runs: Return labels and results, without results that cannot be plotted.
+        runs: Labels and results, without results that cannot be plotted.
     """
     runs = [(label, result) for label, result in runs if fits_a_picture(result.curve)]
     if not runs:

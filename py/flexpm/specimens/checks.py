@@ -51,7 +51,7 @@ def require_memory(where: str, grains: float, each: float) -> None:
     """Refuse a packing that the machine has no memory for, before it is begun.
 
     Args:
-        where: Begin of the message: the specimen that is packed.
+        where: Beginning of the message: the specimen that is packed.
         grains: Expected number of grains.
         each: Memory of a grain [bytes].
 

@@ -6,6 +6,8 @@
 #include "support/same_bits.hpp"
 #include "support/solid_states.hpp"
 
+#include <array>
+
 using namespace solid_states;
 
 namespace {

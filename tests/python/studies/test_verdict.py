@@ -202,10 +202,15 @@ def test_the_page_has_the_verdict(tmp_path, monkeypatch):
     assert found.verdict.open_keys == ["cohesion"]
     found.verdict.write(tmp_path)
     text = pages.write(tmp_path).read_text(encoding="utf-8")
-    for told in ("not met", "Missed: direct tensile strength", "widen [free]", "How open"):
+    for told in (
+        "not met",
+        "Missed: direct tensile strength",
+        "widen [free]",
+        "Uncertainty of the keys",
+    ):
         assert told in text, told
     (tmp_path / "verdict.json").unlink()
-    assert "How open" not in pages.write(tmp_path).read_text(encoding="utf-8")
+    assert "Uncertainty of the keys" not in pages.write(tmp_path).read_text(encoding="utf-8")
 
 
 def test_fracture_toughness_is_a_target_with_options_of_its_own_test(tmp_path):

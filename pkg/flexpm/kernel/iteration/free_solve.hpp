@@ -58,7 +58,8 @@ struct FreeSolution {
 };
 
 /// Solve K u = load for all unknowns but the held ones, which stay 0. Rigid motions of the whole that
-/// no force opposes are those of the guess. Those of a part alone are not determined.
+/// no force opposes are those of the guess, as far as rigid_part() has them. Those of a part alone are
+/// not determined.
 ///
 /// @param held  1 for each unknown that is held
 /// @throws std::runtime_error  if the forces do not come to balance

@@ -30,6 +30,7 @@ public:
     {
         return structure_.wide_motions(held);  // the groups' translations are blocks alone
     }
+    /// A group has no part in rotations: one that would move it is not looked for.
     RigidPart rigid_part(int triple) const override
     {
         if (static_cast<std::size_t>(triple) < unknowns_ / 3) return structure_.rigid_part(triple);
