@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fragments: grains that still hang together after a test, and their areas. SI units.
+"""Fragments: grains that are still connected after a test, and their areas. SI units.
 
-Two grains hang together if a contact between them has a point that is not fully damaged; contacts
+Two grains are connected if a contact between them has a point that is not fully damaged; contacts
 that are only touched, and points that have cracked, do not count.
 """
 

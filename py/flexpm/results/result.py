@@ -131,7 +131,7 @@ class Result(Shown):
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
     vp: float | None = None  #: speed of a plane pressure wave [m/s]
     vs: float | None = None  #: speed of a plane shear wave [m/s]
-    fragments: int | None = None  #: grains that hang together at the end, counted
+    fragments: int | None = None  #: number of groups of connected grains at the end
     largest_fragment: float | None = None  #: its share of the area [-]
     events: int | None = None  #: events of acoustic emission
     completeness_magnitude: float | None = None  #: least magnitude that b_value counts [-]

@@ -245,7 +245,7 @@ def _first_points(drawing: AnySnapshot) -> dict[int, int]:
 def _fragments(
     drawing: AnySnapshot, cracks: Sequence[AnyCrack], at: IntArray, positions: int
 ) -> list[Fragments]:
-    """Fragments at each position: grains hang together while a point of their contact holds."""
+    """Fragments at each position: grains are connected while a point of their contact is bonded."""
     left = drawing.point_damage < 1.0
     areas = drawing.grain_areas
     first = _first_points(drawing)
