@@ -22,3 +22,8 @@ def calls_of(action: Callable[[], object]) -> int:
     finally:
         sys.setprofile(before)
     return count
+
+
+def growth_of(action: Callable[[int], object], few: int, many: int) -> float:
+    """Calls within `action(many)` over those within `action(few)` [-]."""
+    return calls_of(lambda: action(many)) / calls_of(lambda: action(few))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  What bounds a step of a solid: the bandwidth of the memory, and the time to touch the same
+/// @file  Limits of a step of a solid: the bandwidth of the memory, and the time to touch the same
 /// bytes in the same order without arithmetic. Arithmetic is the step of a specimen that stays in
 /// the caches, see solid_bench.cpp.
 #include "solid_loaded.hpp"
@@ -79,8 +79,8 @@ private:
     int sum_ = 0;
 };
 
-/// What an elastic step reads and writes of a block of contacts and of the grains of a tile. It
-/// leaves numbers that mean nothing.
+/// Read and write the bytes that an elastic step needs of a block of contacts. Afterwards the
+/// written numbers mean nothing, as those of touch_grain().
 void touch_contacts(flexpm::SolidState& s, int block, Touch& to)
 {
     const flexpm::FaceContacts& c = s.contacts;

@@ -27,7 +27,7 @@ from hypothesis.extra import numpy as arrays
 from PIL import Image
 from refusals import refusal
 from scipy.ndimage import gaussian_filter
-from work import calls_of
+from work import growth_of
 
 import flexpm
 from flexpm.cli import main as cli
@@ -354,7 +354,4 @@ def test_a_palette_is_its_indices(tmp_path):
 @pytest.mark.long
 def test_the_work_of_a_million_pixels_is_that_of_their_grains():
     """Four times the pixels and twice the grains: twice the loops of Python."""
-    few, many = (
-        calls_of(lambda side=side: made(voronoi(side, 2 * side, 1))) for side in (500, 1000)
-    )
-    assert many < 2.2 * few
+    assert growth_of(lambda side: made(voronoi(side, 2 * side, 1)), 500, 1000) < 2.2

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 from neper_solids import bricks, prism, tess_of, tess_text
-from work import calls_of
+from work import growth_of
 
 import flexpm
 from flexpm import Specimen
@@ -227,16 +227,14 @@ def test_spheres_of_other_models_are_refused(tmp_path):
 
 @pytest.mark.long
 def test_the_work_of_reading_ten_thousand_cells_is_that_of_as_many_cells(tmp_path):
-    def read():
-        return Specimen.from_tess_solid(tmp_path / "a.tess", scale=0.3, short_edge=0.0)
+    def read(count):
+        return Specimen.from_tess_solid(tmp_path / f"{count}.tess", scale=0.3, short_edge=0.0)
 
-    taken = {}
-    for count in (2_500, 10_000):
-        source, seeds = laguerre(count, 6)
-        (tmp_path / "a.tess").write_text(tess_of(source, seeds, version="2.0"))
-        taken[count] = calls_of(read)
-    assert taken[10_000] < 4.4 * taken[2_500]
-    made = read()
+    sources = {count: laguerre(count, 6) for count in (2_500, 10_000)}
+    for count, drawn in sources.items():
+        (tmp_path / f"{count}.tess").write_text(tess_of(*drawn, version="2.0"))
+    assert growth_of(read, 2_500, 10_000) < 4.4
+    made, source = read(10_000), sources[10_000][0]
     assert made.cells.volumes == pytest.approx(0.3**3 * source.cells.volumes, rel=1e-9)
     assert np.array_equal(made.cells.faces[:, :2], source.cells.faces[:, :2])
 
