@@ -125,8 +125,8 @@ class TestKind:
     measure: Callable[[Frame, Columns, float | None], Mapping[str, float | None]] | None = None
     words: Words = field(default_factory=Words)
     rows: tuple[str, ...] = ()  #: of the common rows of a table of its outcome; none: all
-    #: What a calibration can meet, by its own names: keys of result.json.
-    calibrates: Mapping[str, str] = field(default_factory=dict)
+    #: What a calibration can meet, by its own names: a key of result.json, or two of a quotient.
+    calibrates: Mapping[str, str | tuple[str, str]] = field(default_factory=dict)
     envelope: bool = False  #: its peaks make a strength envelope
 
     def has(self, option: str) -> bool:

@@ -15,8 +15,7 @@ from pathlib import Path
 from ..dimensions import is_solid
 from ..errors import InputError
 from ..files import Table, load_toml
-from ..kinds.registry import ELASTIC, KINDS, TESTS, names
-from ..kinds.test_kind import TestKind
+from ..kinds.registry import KINDS, TESTS
 from ..materials import interface
 from ..materials.keys import ELASTIC_KEYS, ELASTIC_SET, UNITS
 from ..materials.made_for import MadeFor, dimension_of
@@ -34,42 +33,17 @@ from ..require import (
     require_text,
     require_whole,
 )
-from ..results import strength
 from ..runs import input_names
 from ..specimens.checks import DIAMETERS, require_seed
+from . import calibration_measures as measures_of
+from .calibration_measures import AT_PRESSURE, ELASTIC_MEASURES, MEASURES, Run
 from .study import MOST_RUNS, flat
 
-#: Measures that can be targets, and the tests that they need; ``envelope`` is one run for each
-#: confinement.
-ELASTIC_MEASURES = tuple(KINDS[ELASTIC].calibrates)
-#: Measures that one test tells: the test, and its key of result.json.
-_TOLD = {
-    name: (test, key) for test in (ELASTIC, *TESTS) for name, key in KINDS[test].calibrates.items()
-}
-#: Quotients of two of them.
-QUOTIENTS = {"direct_indirect_ratio": ("direct_tensile_strength", "indirect_tensile_strength")}
-MEASURES: dict[str, tuple[str, ...]] = {
-    **{name: (test,) for name, (test, _) in _TOLD.items()},
-    **{name: tuple(_TOLD[one][0] for one in both) for name, both in QUOTIENTS.items()},
-    "cohesion": ("envelope",),
-    "friction_angle": ("envelope",),
-    "hoek_brown_strength": ("envelope",),
-    "hoek_brown_m": ("envelope",),
-}
-
-
-def _of_envelope_in(*, space: bool) -> dict[bool, str]:
-    """Return the test of an envelope without and with a confining pressure, in 2D or 3D."""
-
-    def fits(kind: TestKind) -> bool:
-        return kind.envelope and (bool(kind.solids) if space else not is_solid(kind.shape))
-
-    return {KINDS[test].confined: test for test in names(fits)}
-
-
-_OF_ENVELOPE = {space: _of_envelope_in(space=space) for space in (False, True)}
 _TABLES = ("calibration", "common", "screen", "verify", "target", "free", "ratio")
-_ABOUT = ("name", "model", "material", "evaluations", "rounds", "candidates", "confinements")
+_ABOUT = (
+    *("name", "model", "material", "tied"),
+    *("evaluations", "rounds", "candidates", "confinements"),
+)
 _DEFAULTS = {"model": "flexible", "evaluations": 40, "rounds": 2, "candidates": 2}
 #: Options of the runs; the others are the search's own.
 _OPTIONS = [
@@ -88,6 +62,7 @@ class Target:
     value: float
     tolerance: float = 0.05  #: relative deviation that counts as met [-]
     weight: float = 1.0  #: of its squared deviation in tolerances [-]
+    pressure: float | None = None  #: confining pressure that the measure is of [Pa]
 
     def residual(self, found: float) -> float:
         """Weighted deviation in tolerances [-]."""
@@ -125,8 +100,8 @@ class Runs:
 
     def seeds_of(self, target: Target) -> Sequence[int]:
         """Return the seeds of the packings on which a measure is taken."""
-        tests = MEASURES[target.name]
-        discs = all(test in KINDS and KINDS[test].shape == "disc" for test in tests)
+        tests = measures_of.tests_of(target.name)
+        discs = bool(tests) and all(KINDS[test].shape == "disc" for test in tests)
         return self.disc_seeds if discs else self.seeds
 
 
@@ -147,6 +122,9 @@ class Calibration:
     rounds: int
     candidates: int  #: best sets of a round that are verified
     confinements: Sequence[float] = field(default=CONFINEMENTS)  #: of an envelope [Pa]
+    #: Free elastic keys that follow from the elastic targets for each set of the other keys; empty:
+    #: all free elastic keys are fitted once, before the search.
+    tied: Sequence[str] = ()
 
     @property
     def material_file(self) -> str | None:
@@ -162,46 +140,45 @@ class Calibration:
         return any(is_solid(self.screen.shape_of(test)) for test in tests)
 
     @property
+    def elastic_keys(self) -> list[str]:
+        """Free keys of the elastic solution."""
+        return [key for key in self.free if _is_elastic(key)]
+
+    @property
     def made_for(self) -> MadeFor | None:
         """Specimens and model of the calibration; None: unknown."""
         low, high = self.verify.options.get("diameters", DIAMETERS)
         return MadeFor(dimension_of(solid=self.is_solid), self.model, 0.5 * (low + high))
 
     def of_kind(self, elastic: bool) -> tuple[list[Target], list[str]]:
-        """Return targets and free keys of the elastic solution, or the other targets and keys."""
-        targets = [t for t in self.targets if (t.name in ELASTIC_MEASURES) == elastic]
-        return targets, [key for key in self.free if (_last(key) in ELASTIC_KEYS) == elastic]
+        """Return targets and keys of the elastic fit, or those of the search.
 
-    def tests(self, target: Target) -> list[tuple[str, float]]:
+        With tied keys the search has the elastic targets, too, in case that no values of the tied
+        keys meet them.
+        """
+        elastic_targets = [t for t in self.targets if t.name in ELASTIC_MEASURES]
+        fitted = [*(self.tied or self.elastic_keys)]
+        if elastic:
+            return elastic_targets, fitted
+        others = [t for t in self.targets if t not in elastic_targets or self.tied]
+        return others, [key for key in self.free if key not in fitted]
+
+    def tests(self, target: Target) -> list[Run]:
         """Return the tests with their confining pressures [Pa] that a measure needs."""
-        tests = MEASURES[target.name]
-        if tests == ("envelope",):
-            tests_of = _OF_ENVELOPE[is_solid(self.screen.options.get("shape", ""))]
-            return [(tests_of[bool(c)], c) for c in self.confinements]
-        return [(test, 0.0) for test in tests]
+        return measures_of.runs_of(
+            target.name,
+            self.confinements,
+            pressure=target.pressure,
+            solid=is_solid(self.screen.options.get("shape", "")),
+        )
 
-    def entries(self, target: Target) -> list[tuple[tuple[str, float], str]]:
+    def entries(self, target: Target) -> list[tuple[Run, str]]:
         """Return test, confining pressure [Pa] and key of result.json of each part of a measure."""
-        if target.name in _TOLD or target.name in QUOTIENTS:
-            names = QUOTIENTS.get(target.name, (target.name,))
-            return [((test, 0.0), key) for test, key in (_TOLD[name] for name in names)]
-        return [(test, "peak_stress") for test in self.tests(target)]
+        return measures_of.entries(target.name, self.tests(target))
 
-    def measure(self, target: Target, found: Mapping[tuple[str, float], Table]) -> float | None:
+    def measure(self, target: Target, found: Mapping[Run, Table]) -> float | None:
         """Return a measure of a packing from its results by test and pressure; None if missing."""
-        if target.name in _TOLD:
-            return _told(target.name, found)
-        if target.name in QUOTIENTS:
-            both = [_told(name, found) for name in QUOTIENTS[target.name]]
-            return strength.tensile_ratio(*both)
-        peaks = [found[test].get("peak_stress") for test in self.tests(target)]
-        known = [peak for peak in peaks if peak is not None]
-        if len(known) < len(peaks):
-            return None
-        try:
-            return _of_envelope(target.name, self.confinements, known)
-        except InputError:  # the peaks follow no criterion
-            return None
+        return measures_of.measured(target.name, self.tests(target), found)
 
 
 def _last(key: str) -> str:
@@ -209,17 +186,8 @@ def _last(key: str) -> str:
     return key.rpartition(".")[2]
 
 
-def _told(name: str, found: Mapping[tuple[str, float], Table]) -> float | None:
-    test, key = _TOLD[name]
-    return found[(test, 0.0)].get(key)
-
-
-def _of_envelope(name: str, confinements: Sequence[float], peaks: Sequence[float]) -> float:
-    if name.startswith("hoek_brown"):
-        fitted = strength.hoek_brown(confinements, peaks)
-        return fitted.m_i if name == "hoek_brown_m" else fitted.sigma_ci
-    line = strength.mohr_coulomb(confinements, peaks)
-    return line.cohesion if name == "cohesion" else line.friction_angle
+def _is_elastic(key: str) -> bool:
+    return _last(key) in ELASTIC_KEYS
 
 
 def read(path: Path | str) -> Calibration:
@@ -233,11 +201,9 @@ def read(path: Path | str) -> Calibration:
     for table in content:
         require_known("calibration table", table, _TABLES)
     about = _about(content, path)
-    wanted = _table(content, "target")
-    for name in wanted:
-        require_known("calibration [target] key", name, list(MEASURES))
-    targets = [target_of(name, entry) for name, entry in wanted.items()]
+    targets = [*_targets(_table(content, "target"))]
     free = free_of(_table(content, "free"))
+    _require_tied(about["tied"], free, targets)
     ratios = require_tables("calibration [[ratio]]", content.get("ratio", []))
     return Calibration(
         base=path.parent,
@@ -248,6 +214,47 @@ def read(path: Path | str) -> Calibration:
         verify=_runs(content, "verify", (11, 12, 13, 14, 15)),
         **about,
     )
+
+
+def _targets(wanted: Table) -> Iterator[Target]:
+    """Return the targets of a file, those at confining pressures included."""
+    for name, entry in wanted.items():
+        require_known("calibration [target] key", name, [*MEASURES, *AT_PRESSURE])
+        if name not in AT_PRESSURE:
+            yield target_of(name, entry)
+            continue
+        for text, one in require_table(f"calibration [target] {name}", entry).items():
+            pressure = _pressure(f"[target] {name}", text)
+            yield replace(
+                target_of(measures_of.name_at(AT_PRESSURE[name], pressure), one), pressure=pressure
+            )
+
+
+def _pressure(label: str, text: str) -> float:
+    """Return the confining pressure [Pa] that is a key of a table."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    _require(label, text, number >= 0.0 and math.isfinite(number), "a table by pressures in Pa")
+    return number
+
+
+def _require_tied(tied: Sequence[str], free: Mapping[str, object], targets: list[Target]) -> None:
+    """Refuse tied keys that the elastic targets do not determine."""
+    elastic = [key for key in free if _is_elastic(key)]
+    for key in tied:
+        require_known("calibration [calibration] tied", key, elastic)
+    aims = [target.name for target in targets if target.name in ELASTIC_MEASURES]
+    if tied:
+        rule = f"as many keys as elastic targets ({len(aims)}), each once"
+        _require("[calibration] tied", [*tied], len({*tied}) == len(tied) == len(aims), rule)
+        _require(
+            "[calibration] tied",
+            [*tied],
+            len(tied) < len(elastic),
+            "fewer than the free elastic keys, which are fitted before the search without tied",
+        )
 
 
 def free_of(bounds: Mapping[str, object]) -> dict[str, tuple[float, float]]:
@@ -266,7 +273,7 @@ def free_of(bounds: Mapping[str, object]) -> dict[str, tuple[float, float]]:
 def _about(content: Table, path: Path) -> Table:
     """The table ``[calibration]`` with its defaults."""
     given = require_table("calibration [calibration]", content.get("calibration", {}))
-    about = {**_DEFAULTS, "name": path.stem, "material": None, **given}
+    about = {**_DEFAULTS, "name": path.stem, "material": None, "tied": [], **given}
     for key in given:
         require_known("calibration [calibration] key", key, _ABOUT)
     label = "calibration [calibration]"
@@ -277,6 +284,7 @@ def _about(content: Table, path: Path) -> Table:
     require_known(f"{label} model", about["model"], list(ELASTIC_SET))
     if about["material"] is not None:
         require_text(f"{label} material", about["material"])
+    about["tied"] = tuple(require_list(f"{label} tied", about["tied"]))
     asked = require_list(f"{label} confinements", about.get("confinements", CONFINEMENTS))
     pressures = [require_number(f"{label} confinements", one, NOT_NEGATIVE, "Pa") for one in asked]
     if len(set(pressures)) != len(pressures) or len(pressures) < 2:
@@ -348,8 +356,3 @@ def _bounds(label: str, bounds: object) -> tuple[float, float]:
 def _require(label: str, value: object, holds: bool, rule: str) -> None:
     if not holds:
         raise InputError(f"calibration {label} = {quoted(value)}, must be {rule}; correct it")
-
-
-def key_of(measure: str) -> str:
-    """Return the key of result.json of a measure of a single test; else the name of the measure."""
-    return _TOLD.get(measure, ("", measure))[1]

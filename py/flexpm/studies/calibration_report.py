@@ -17,7 +17,8 @@ from ..materials.material import load as load_material
 from ..report.style import drawing
 from ..results.strength import tensile_ratio
 from ..text import label_of, words_of
-from .calibration_problem import ELASTIC_MEASURES, MEASURES, QUOTIENTS, Calibration, key_of
+from .calibration_measures import ELASTIC_MEASURES, QUOTIENTS, is_stress, keys_of
+from .calibration_problem import Calibration
 from .calibration_search import Evaluation, Outcome
 
 #: Digits of the values in a preset.
@@ -61,8 +62,8 @@ def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
 
 def unit_of(measure: str) -> tuple[float, str]:
     """Factor and unit in which a measure is shown."""
-    usual = (1e-6, "MPa") if measure in MEASURES else (1.0, "")
-    return _UNITS.get(key_of(measure), usual)
+    usual = (1e-6, "MPa") if is_stress(measure) else (1.0, "")
+    return _UNITS.get(keys_of(measure)[0], usual)
 
 
 def _tensile_ratio(best: Evaluation) -> float | None:

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Calibration of a material to the measures of a rock. SI units, degrees.
 
-Elastic keys are fitted first, by the elastic solution. Strength keys follow by DFO-LS, a
-trust-region method for least squares without derivatives, on few packings of a small specimen. The
-best sets are verified on other packings of the full specimen. The difference between small and full
-specimens corrects the targets of the next round. Strength keys are searched as logarithms.
+Elastic keys are fitted first, by the elastic solution; keys that are tied to the elastic targets
+are fitted again for each set of the other keys. Strength keys follow by DFO-LS, a trust-region
+method for least squares without derivatives, on few packings of a small specimen. The best sets are
+verified on other packings of the full specimen. The difference between small and full specimens
+corrects the targets of the next round. Strength keys are searched as logarithms.
 
 All runs are jobs of :mod:`flexpm.jobs`: a calibration that was stopped repeats the same search, but
 finds the runs that were finished.
@@ -12,6 +13,7 @@ finds the runs that were finished.
 
 from __future__ import annotations
 
+import itertools
 import math
 import warnings
 from collections import defaultdict
@@ -34,6 +36,7 @@ from ..materials.keys import is_used
 from ..progress import Progress
 from . import jobs
 from .calibration_losses import loss
+from .calibration_measures import ELASTIC_MEASURES, Run
 from .calibration_problem import Calibration, Runs, Target
 from .calibration_verdict import Verdict, is_met, judge
 from .jobs import Job
@@ -147,7 +150,11 @@ def judged(plan: Calibration, best: Evaluation, history: Sequence[Evaluation]) -
     parts = []
     for elastic, stage in ((True, "elastic"), (False, "screen")):
         targets, keys = plan.of_kind(elastic=elastic)
-        parts.append(([e for e in history if e.stage == stage], keys, targets))
+        sets = [e for e in history if e.stage == stage]
+        if elastic:  # other elastic keys stand still in a fit of the tied ones
+            others = [key for key in plan.elastic_keys if key not in keys]
+            sets = [e for e in sets if all(e.values[key] == best.values[key] for key in others)]
+        parts.append((sets, keys, targets))
     tried = [e for e in history if (e.stage, e.round) == ("screen", history[-1].round)]
     return judge(plan.targets, plan.free, parts, best, used_up=len(tried) > plan.evaluations)
 
@@ -177,8 +184,13 @@ class Search:
             _optimiser()  # before the first run: a search that could not go on would cost minutes
         self.history: list[Evaluation] = []
 
-    def elastic(self, values: Values) -> Values:
-        """Free elastic keys that meet the elastic targets on the verification's packings."""
+    def elastic(self, values: Values, stage: str = "elastic") -> Values:
+        """Keys of the elastic fit that meet the elastic targets.
+
+        Args:
+            values: Values of all free keys; the fit starts from them.
+            stage: ``elastic`` for the verification's packings, ``tied`` for those of the search.
+        """
         targets, keys = self._plan.of_kind(elastic=True)
         if not keys:
             return {}
@@ -191,7 +203,7 @@ class Search:
 
         def residuals(factors: FloatArray) -> FloatArray:
             tried = {**values, **dict(zip(keys, (factors * start).tolist(), strict=True))}
-            return self._residuals(self._evaluate("elastic", tried, targets), targets)
+            return self._residuals(self._evaluate(stage, tried, targets), targets)
 
         found = least_squares(
             residuals,
@@ -214,11 +226,16 @@ class Search:
         for number in range(1, self._plan.rounds + 1):
             self._round = number
             tried = self._screen(values, keys, aims)
-            best = [self._verify(e.values) for e in tried[: self._plan.candidates]]
+            best = [self._verify(self._retied(e.values)) for e in tried[: self._plan.candidates]]
             verified += best
             if self._plan.rounds == 1 or all(is_met(t, best[0].mean(t.name)) for t in targets):
                 break
-            aims = [t.corrected(tried[0].mean(t.name), best[0].mean(t.name)) for t in targets]
+            aims = [
+                t
+                if t.name in ELASTIC_MEASURES  # met on small and on full specimens
+                else t.corrected(tried[0].mean(t.name), best[0].mean(t.name))
+                for t in targets
+            ]
             values = tried[0].values
         complete = [e for e in verified if all(e.mean(t.name) is not None for t in targets)]
         return min(complete or verified, key=lambda e: e.cost)
@@ -235,6 +252,7 @@ class Search:
         def residuals(unit: FloatArray) -> FloatArray:
             logs = bounds[0] + width * unit
             tried = {**values, **dict(zip(keys, np.exp(logs).tolist(), strict=True))}
+            tried = self._retied(tried, "tied")
             return self._residuals(self._evaluate("screen", tried, aims), aims)
 
         start = (np.log([values[key] for key in keys]) - bounds[0]) / width
@@ -255,7 +273,12 @@ class Search:
                 do_logging=False,
                 print_progress=False,
             )
-        return sorted(self.history[first:], key=lambda e: e.cost)
+        tried = [e for e in self.history[first:] if e.stage == "screen"]
+        return sorted(tried, key=lambda e: e.cost)
+
+    def _retied(self, values: Values, stage: str = "elastic") -> Values:
+        """Return the values with the tied keys that meet the elastic targets."""
+        return {**values, **self.elastic(values, stage)} if self._plan.tied else values
 
     def _guess(self, values: Values, keys: list[str], aims: list[Target]) -> Values:
         """Return the start of the search, from the measures that strengths and friction govern."""
@@ -304,7 +327,7 @@ class Search:
     def _evaluate(self, stage: str, values: Values, targets: Sequence[Target]) -> Evaluation:
         """Run all tests that the targets need with a set of free keys."""
         plan = self._plan
-        runs = plan.screen if stage == "screen" else plan.verify
+        runs = plan.verify if stage in ("elastic", "verify") else plan.screen
         measures, lost = self._measures(runs, values, targets)
         aims = {t.name: t.value for t in targets}
         evaluation = Evaluation(self._round, stage, dict(values), measures, aims, 0.0, lost)
@@ -333,8 +356,8 @@ class Search:
                 done + d / n, self._expected(), f"round {self._round}"
             ),
         )
-        found: dict[int, dict[tuple[str, float], Table]] = defaultdict(dict)
-        ended: dict[int, dict[tuple[str, float], Table]] = defaultdict(dict)
+        found: dict[int, dict[Run, Table]] = defaultdict(dict)
+        ended: dict[int, dict[Run, Table]] = defaultdict(dict)
         for (seed, test), outcome in zip(wanted, outcomes, strict=True):
             found[seed][test], ended[seed][test] = outcome["result"], outcome
         measures = {t.name: [plan.measure(t, found[s]) for s in runs.seeds_of(t)] for t in targets}
@@ -350,12 +373,14 @@ class Search:
         targets, keys = plan.of_kind(elastic=False)
         if not (keys and targets):
             return self._elastic_sets() + 1
-        return self._elastic_sets() + plan.rounds * (1 + plan.evaluations + plan.candidates)
+        tied = 1 + (_ELASTIC_FITS * (1 + len(plan.tied)) if plan.tied else 0)
+        sets = tied * (plan.evaluations + plan.candidates)
+        return self._elastic_sets() + plan.rounds * (1 + sets)
 
     def _elastic_sets(self) -> int:
         """Sets of the elastic fit: those that were tried once it is over, before an estimate."""
         keys = self._plan.of_kind(elastic=True)[1]
-        tried = sum(e.stage == "elastic" for e in self.history)
+        tried = sum(1 for _ in itertools.takewhile(lambda e: e.stage == "elastic", self.history))
         over = tried < len(self.history)
         return tried if over or not keys else max(tried + 1, _ELASTIC_FITS * (len(keys) + 1))
 
@@ -372,13 +397,13 @@ class Search:
 
 def _jobs(
     plan: Calibration, runs: Runs, values: Values, targets: Sequence[Target]
-) -> dict[tuple[int, tuple[str, float]], Job]:
+) -> dict[tuple[int, Run], Job]:
     """Return the runs that the targets need, by seed and test with its confining pressure [Pa]."""
     material = {} if plan.material is None else {"material": plan.material}
     common = {**runs.options, **material, "model": plan.model}
 
     def keys_of(test: str) -> Table:  # an elastic solve that is there serves other strengths
-        used = plan.of_kind(elastic=True)[1] if test == ELASTIC else values
+        used = plan.elastic_keys if test == ELASTIC else values
         return {f"set.{key}": values[key] for key in used}
 
     wanted = {

@@ -22,7 +22,7 @@ from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.materials.mixing import value_of
 from flexpm.studies import calibration_problem, calibration_search, jobs
-from flexpm.studies.calibration_report import picture, table_rows, write_preset
+from flexpm.studies.calibration_report import picture, table_rows, unit_of, write_preset
 
 ROOT = Path(__file__).resolve().parents[3]
 GOOD = """
@@ -63,6 +63,11 @@ def plan_of(folder: Path, text: str = GOOD) -> calibration_problem.Calibration:
         ("evaluations = 30", "evaluations = 0", ">= 1"),
         ("seeds = [5, 6]", "seeds = 5", "must be a list"),
         ("seeds = [5, 6]", "disc_seeds = []", "must be a list of seeds"),
+        ("[target]", "[target]\npeaks = 3e8", "must be a table"),
+        ("[target]", '[target]\npeaks = { "ten" = 3e8 }', "must be a table by pressures in Pa"),
+        ("[target]", '[target]\npeaks = { "-1" = 3e8 }', "must be a table by pressures in Pa"),
+        ("[target]", "[target]\npeaks = { 1e7 = -3e8 }", "must be > 0"),
+        ("rounds = 2", 'tied = ["cohesion"]', "tied = 'cohesion', unknown"),
     ],
 )
 def test_wrong_files_are_refused(tmp_path, old, new, says):
@@ -111,6 +116,42 @@ def test_measures_of_an_envelope(tmp_path):
     assert plan.measure(plan.targets[1], found) is None
 
 
+@pytest.mark.parametrize(("shape", "test"), [("rectangle", "biaxial"), ("box", "triaxial")])
+def test_peaks_are_targets_at_their_confining_pressures(tmp_path, shape, test):
+    text = GOOD.replace("[screen]", f'[common]\nshape = "{shape}"\n[screen]')
+    peaks = "peaks = { 0 = 120e6, 1e7 = { value = 210e6, tolerance = 0.1 } }\n"
+    plan = plan_of(tmp_path, text.replace("[target]", f"[target]\n{peaks}"))
+    without, under = plan.targets[:2]
+    assert (without.name, under.name) == ("peak_at_0_MPa", "peak_at_10_MPa")
+    assert (without.tolerance, under.tolerance) == (0.05, 0.1)
+    assert plan.tests(without) == [("uniaxial", 0.0)] and plan.tests(under) == [(test, 1e7)]
+    found = {("uniaxial", 0.0): {"peak_stress": 118e6}, (test, 1e7): {"peak_stress": 199e6}}
+    assert [plan.measure(t, found) for t in (without, under)] == [118e6, 199e6]
+    assert plan.measure(under, {(test, 1e7): {"status": "no_peak"}}) is None
+    assert unit_of("peak_at_10_MPa") == (1e-6, "MPa")
+
+
+def test_crack_thresholds_are_targets_as_parts_of_the_strength(tmp_path):
+    plan = plan_of(
+        tmp_path, GOOD.replace("[target]", "[target]\ncrack_initiation = 0.45\ncrack_damage = 0.75")
+    )
+    found = {
+        ("uniaxial", 0.0): {
+            "peak_stress": 120e6,
+            "crack_initiation_stress": 60e6,
+            "crack_damage_stress": None,
+        }
+    }
+    initiation, damage = plan.targets[:2]
+    assert plan.measure(initiation, found) == 0.5 and plan.measure(damage, found) is None
+    assert unit_of("crack_initiation") == (1.0, "")
+    # one run tells them and the strength
+    assert {run for t in plan.targets for run in plan.tests(t)} == {
+        ("uniaxial", 0.0),
+        ("tension", 0.0),
+    }
+
+
 class MadeUp:
     """In the place of the runs: strengths of a rock that is known, 4 % weaker when large."""
 
@@ -156,6 +197,81 @@ def test_the_search_meets_targets_on_the_full_specimen(tmp_path, monkeypatch):
     assert all("met" in text for _, text in table_rows(plan, found))
     picture(tmp_path / "known.png", plan, found)
     assert (tmp_path / "known.png").stat().st_size > 10_000
+
+
+#: Stiff grains with compliant contacts, of which contacts and grains share the compliance.
+TIED = (
+    GOOD.replace("rounds = 2", 'rounds = 2\ntied = ["young", "poisson"]').replace(
+        "[target]",
+        """[target]
+youngs_modulus = { value = 25.8e9, tolerance = 0.02 }
+poissons_ratio = { value = 0.23, tolerance = 0.02 }
+crack_initiation = { value = 0.5, tolerance = 0.02 }
+""",
+    )
+    + """
+young = [20e9, 200e9]
+poisson = [0.05, 0.4]
+normal_stiffness = [1e13, 1e15]
+"""
+)
+
+
+class Compliant(MadeUp):
+    """Cracks begin earlier as contacts share more of the compliance."""
+
+    @classmethod
+    def run(cls, wanted, progress=None):
+        return [{"result": cls.result(dict(job.inputs))} for job in wanted]
+
+    @classmethod
+    def result(cls, inputs):
+        young, stiffness = inputs["set.young"], inputs["set.normal_stiffness"]
+        modulus = 1.0 / (1.0 / young + 1.0 / (2e-3 * stiffness))
+        if inputs["test"] == "elastic":
+            poisson = inputs["set.poisson"] * modulus / young + 0.1 * (1.0 - modulus / young)
+            return {"youngs_modulus": modulus, "poissons_ratio": poisson}
+        peak = cls.peak(inputs)
+        return {"peak_stress": peak, "crack_initiation_stress": peak * modulus / young}
+
+
+def test_tied_keys_meet_the_elastic_targets_of_each_set_of_the_search(tmp_path, monkeypatch):
+    monkeypatch.setattr(calibration_search, "Pool", Compliant)
+    plan = plan_of(tmp_path, TIED)
+    start = {"young": 28e9, "poisson": 0.2336, "normal_stiffness": 1.8e14}
+    strengths = {"tensile_strength": 8.5e6, "cohesion": 30e6}
+    found = calibration_search.run(plan, tmp_path, start=start | strengths)
+    assert all(found.met.values()), found.met
+    # half of the compliance is the contacts'
+    assert found.best.values["young"] == pytest.approx(2.0 * 25.8e9, rel=0.03)
+    assert found.best.values["normal_stiffness"] == pytest.approx(2.0 * 25.8e9 / 2e-3, rel=0.03)
+    screened = [e for e in found.history if e.stage == "screen"][1:]
+    assert len({e.values["normal_stiffness"] for e in screened}) > 5
+    within = [e for e in screened if e.values["poisson"] < 0.39]  # others cannot meet the targets
+    assert len(within) > 5
+    for e in within:
+        assert e.mean("youngs_modulus") == pytest.approx(25.8e9, rel=1e-3)
+        assert e.mean("poissons_ratio") == pytest.approx(0.23, rel=1e-3)
+    # they are fitted on the packings of the search, and at last on those of the verification
+    counts = {e.stage: len(e.measures["youngs_modulus"]) for e in found.history}
+    assert counts == {"elastic": 2, "tied": 1, "screen": 1, "verify": 2}
+
+
+@pytest.mark.parametrize(
+    ("tied", "says"),
+    [
+        ('["young"]', r"must be as many keys as elastic targets \(2\)"),
+        ('["young", "young"]', r"must be as many keys as elastic targets \(2\)"),
+        ('["young", "shear_ratio"]', "tied = 'shear_ratio', unknown"),
+    ],
+)
+def test_keys_that_cannot_be_tied_are_refused(tmp_path, tied, says):
+    refusal(says, plan_of, tmp_path, TIED.replace('["young", "poisson"]', tied))
+
+
+def test_tied_keys_leave_a_key_to_the_search(tmp_path):
+    text = TIED.replace("normal_stiffness = [1e13, 1e15]", "")
+    refusal("must be fewer than the free elastic keys", plan_of, tmp_path, text)
 
 
 class NoPeaks(MadeUp):

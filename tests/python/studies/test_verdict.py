@@ -11,7 +11,7 @@ import pytest
 from refusals import refusal
 
 from flexpm import materials
-from flexpm.studies import calibration_problem, calibration_search, pages
+from flexpm.studies import calibration_measures, calibration_problem, calibration_search, pages
 from flexpm.studies.calibration_problem import Target
 from flexpm.studies.calibration_verdict import judge, left_open, slopes
 
@@ -222,5 +222,5 @@ def test_fracture_toughness_is_a_target_with_options_of_its_own_test(tmp_path):
     values = {"tensile_strength": 8e6, "cohesion": 30e6}
     job = calibration_search._jobs(plan, plan.screen, values, plan.targets)[(1, ("scb", 0.0))]
     assert (job.inputs["diameter"], job.spec.notch) == (0.03, 0.006)
-    assert calibration_problem.MEASURES["beam_toughness"] == ("bending",)
+    assert calibration_measures.tests_of("beam_toughness") == ("bending",)
     refusal("scb key", plan_of, tmp_path, text.replace("notch =", "noch ="))

@@ -47,6 +47,10 @@ KIND = TestKind(
     controls=_CONTROLS,
     falls_freely=True,
     is_core=True,
-    calibrates={"compressive_strength": "peak_stress"},
+    calibrates={
+        "compressive_strength": "peak_stress",
+        "crack_initiation": ("crack_initiation_stress", "peak_stress"),
+        "crack_damage": ("crack_damage_stress", "peak_stress"),
+    },
     envelope=True,
 )
