@@ -180,6 +180,7 @@ class Search:
     def __init__(self, plan: Calibration, pool: Pool | None, progress: Progress) -> None:
         self._plan, self._pool, self._progress = plan, pool, progress
         self._round = 1
+        self._tied: Values = {}
         if plan.of_kind(elastic=False)[1]:
             _optimiser()  # before the first run: a search that could not go on would cost minutes
         self.history: list[Evaluation] = []
@@ -277,8 +278,13 @@ class Search:
         return sorted(tried, key=lambda e: e.cost)
 
     def _retied(self, values: Values, stage: str = "elastic") -> Values:
-        """Return the values with the tied keys that meet the elastic targets."""
-        return {**values, **self.elastic(values, stage)} if self._plan.tied else values
+        """Return the values with the tied keys that meet the elastic targets.
+
+        A fit starts from the one before, of a set that is usually near.
+        """
+        if self._plan.tied:
+            self._tied = self.elastic({**values, **self._tied}, stage)
+        return {**values, **self._tied}
 
     def _guess(self, values: Values, keys: list[str], aims: list[Target]) -> Values:
         """Return the start of the search, from the measures that strengths and friction govern."""
