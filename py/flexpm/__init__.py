@@ -31,6 +31,7 @@ if TYPE_CHECKING:
         run,
     )
     from .studies.own.calibration import calibrate
+    from .studies.scorecards.card import scorecard
 
 #: What users call; imported when first used. The classes of the plugin are added as they load.
 __all__ = [
@@ -50,6 +51,7 @@ __all__ = [
     "load",
     "rig",
     "run",
+    "scorecard",
 ]
 #: Modules that scripts use as attributes of the package.
 _MODULES = ("export", "materials", "plot", "strength", "study")
@@ -76,6 +78,11 @@ def __getattr__(name: str) -> Any:
         from .studies.own import calibration
 
         return calibration.calibrate
+    if name == "scorecard":  # likewise
+        _load_classes()
+        from .studies.scorecards import card
+
+        return card.scorecard
     if name in __all__ or name in _MODULES:
         _load_classes()
         from . import _api

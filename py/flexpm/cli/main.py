@@ -35,6 +35,7 @@ from . import compare as cli_compare
 from . import images as cli_images
 from . import inputs, runs, signals, terminal
 from . import options as cli_options
+from . import scorecard as cli_scorecard
 from . import solids as cli_solids
 from .parameters import Count
 
@@ -245,7 +246,8 @@ def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options
 @command.command(short_help="Rebuild report.html from the files of a run.")
 @click.argument("folder", type=click.Path(path_type=Path), metavar="DIR")
 def report(folder: Path) -> None:
-    """Rebuild report.html in DIR, the folder of a run, compare, study or calibrate.
+    """Rebuild report.html in DIR, the folder of a run, compare, study, calibrate or
+    scorecard.
 
     The report opens in any browser, without a network connection. It has inputs, results, curves,
     maps and warnings. For a run that is in progress or was stopped it has the results up to now.
@@ -272,7 +274,7 @@ def doctor(ctx: click.Context) -> None:
     ctx.exit(0 if sound else 1)
 
 
-for _one in (cli_compare.compare, runs.run, runs.rerun, runs.elastic):
+for _one in (cli_compare.compare, cli_scorecard.scorecard, runs.run, runs.rerun, runs.elastic):
     command.add_command(_one)
 
 

@@ -264,15 +264,8 @@ study_seeds_option = click.option(
     metavar="N-M,...",
     help="Seeds that replace the seeds in FILE, such as 1-5 or 1,3,7-9.",
 )
-many_runs_options = combined(
-    click.argument("file", type=click.Path(path_type=Path), metavar="FILE"),
-    click.option(
-        "--out",
-        type=click.Path(path_type=Path),
-        metavar="DIR",
-        help="Folder for the files.  [default: the name of FILE without .toml, in the working "
-        "folder]",
-    ),
+#: Options of runs that are distributed.
+pool_options = combined(
     click.option(
         "--workers",
         type=Count(1),
@@ -289,6 +282,17 @@ many_runs_options = combined(
         metavar="KIND",
         help="Start workers by this batch system: slurm, pbs, oar, ... (needs dask-jobqueue).",
     ),
+)
+many_runs_options = combined(
+    click.argument("file", type=click.Path(path_type=Path), metavar="FILE"),
+    click.option(
+        "--out",
+        type=click.Path(path_type=Path),
+        metavar="DIR",
+        help="Folder for the files.  [default: the name of FILE without .toml, in the working "
+        "folder]",
+    ),
+    pool_options,
     report_option,
     quiet_option,
 )

@@ -128,6 +128,7 @@ class TestKind:
     #: What a calibration can meet, by its own names: a key of result.json, or two of a quotient.
     calibrates: Mapping[str, str | tuple[str, str]] = field(default_factory=dict)
     envelope: bool = False  #: its peaks make a strength envelope
+    scored: str = ""  #: its role in a scorecard, see ``studies.scorecards``; empty: none
 
     def has(self, option: str) -> bool:
         """Whether the test has an option that not all tests have."""

@@ -22,6 +22,7 @@ RESULT = FINISHED
 KINDS = {
     RESULT: "run",
     SO_FAR: "run",
+    "scorecard.json": "scorecard",
     "compare.csv": "compare",
     "means.csv": "packings",
     "table.csv": "study",

@@ -15,6 +15,7 @@ from .._version import __version__
 from ..errors import InputError
 from ..files import Table, load_csv, load_json, read_text
 from ..kinds.registry import OWN
+from ..kinds.registry import kind_of as test_of
 from ..report.pages.page import (
     FILE,
     Chart,
@@ -40,11 +41,15 @@ from ..text import name_of, printable, words_of
 from .calibration_report import unit_of
 from .calibration_verdict import FILE as VERDICT
 from .jobs import place_of
+from .scorecards.output import FILE as SCORECARD
+from .scorecards.output import HEADER, PAIRS, pair_lines
+from .scorecards.output import PICTURE as BARS
 
 #: Maps of a comparison; each takes about a third of a megabyte for the paper's specimen.
 _MOST_MAPS = 6
 #: Runs whose curves a page shows, points of each, and rows of a table.
 _MOST_CURVES, _POINTS, _MOST_ROWS = 30, 400, 300
+_PARENTHESES = "In parentheses: band of similar rocks, which is not judged."
 #: Columns of a run that stand in each table of runs.
 _MORE = ("fragments", "status")
 
@@ -53,12 +58,12 @@ def require_results(folder: Path) -> Path:
     """Reject a folder without results.
 
     Raises:
-        InputError: if it is not a folder of run, compare, study or calibrate.
+        InputError: if it is not a folder of run, compare, study, calibrate or scorecard.
     """
     if kind_of(folder) is None:
         raise InputError(
             f"report: folder = {str(folder)!r}, has none of {', '.join(KINDS)}; give the folder of "
-            "a run, compare, study or calibrate"
+            "a run, compare, study, calibrate or scorecard"
         )
     return folder
 
@@ -69,7 +74,7 @@ def has_ended(folder: Path) -> bool:
 
 
 def write(folder: Path) -> Path:
-    """Write report.html into the folder of a run, compare, study or calibrate.
+    """Write report.html into the folder of a run, compare, study, calibrate or scorecard.
 
     Returns:
         The file.
@@ -87,6 +92,7 @@ def write(folder: Path) -> Path:
             "packings": _packings,
             "study": _study,
             "calibrate": _calibration,
+            "scorecard": _scorecard,
         }[str(kind)](folder)
         write_page(folder / FILE, page)
     except InputError:
@@ -204,6 +210,74 @@ def _calibration(folder: Path) -> Page:
         ],
         cite=cite(__version__),
     )
+
+
+def _scorecard(folder: Path) -> Page:
+    """Page of a scorecard: its table, a bar for each measure, and the curves of the runs."""
+    content = load_json(folder / SCORECARD, "scorecard")
+    size, rock = content["size"], content["rock"]
+    places = {
+        f"seed {seed} {words_of(name)}": f"runs/{key}"
+        for seed, runs in content["runs"].items()
+        for name, key in runs.items()
+    }
+    known = _results(folder, places.values())
+    found = {name: known[place] for name, place in places.items() if place in known}
+    notes = [("rock", rock["name"]), ("note", rock["note"]), ("source", rock["source"])]
+    tables = [Rows("Rock", ("", ""), [(name, printable(str(text))) for name, text in notes])]
+    if pairs := content["cracks_by_pair"]:
+        note = "Shares of all cracks in compression, up to the end of the tests."
+        tables.insert(0, Rows("Cracks by pair of minerals", PAIRS, pair_lines(pairs), note))
+    return Page(
+        title=f"Scorecard of {name_of(content['material'])}, rock: {name_of(rock['name'])}",
+        about=f"{content['model']} model, {content['shape']}, size {size['name']}, seeds "
+        f"{', '.join(map(str, content['seeds']))}",
+        versions=_versions(found),
+        status=_box(content),
+        results=Rows("Measures", HEADER, content["table"], _PARENTHESES),
+        warnings=_shared_warnings(found),
+        charts=_curves_by_test(found),
+        tables=[*tables, *_about(found)],
+        pictures=_pictures(folder, (BARS,)),
+        commands=[("A run, by the name of its folder:", _again([*known][:1]))],
+        cite=cite(__version__),
+    )
+
+
+def _box(content: Table) -> Status:
+    """Box with the measures by which a scorecard fails."""
+    missed = [words_of(str(name)) for name in content["failed"]]
+    if missed:
+        return Status("not met", False, f"These decide and are not met: {', '.join(missed)}.", "")
+    advice = "" if content["size"]["full"] else "Only full specimens decide on all measures."
+    return Status("met", True, "No measure that decides is missed.", advice)
+
+
+def _shared_warnings(found: Mapping[str, Result]) -> list[str]:
+    """Return each warning once, with the first run that has it and the number of the others."""
+    by_line: dict[str, list[str]] = {}
+    for place, one in found.items():
+        for line in one.warnings:
+            by_line.setdefault(line, []).append(place)
+    return [
+        f"{names[0]}{f' and {len(names) - 1} more' if len(names) > 1 else ''}: {line}"
+        for line, names in by_line.items()
+    ]
+
+
+def _curves_by_test(found: Mapping[str, Result]) -> list[Chart]:
+    """Return a chart for each test; tests of cores without control share one."""
+    groups: dict[str, dict[str, Result]] = {}
+    for name, one in found.items():
+        controlled = (one.inputs or {}).get("control") is not None
+        cores = "compression" if test_of(one.test).is_core else one.test
+        title = "controlled compression" if controlled else cores
+        groups.setdefault(title, {})[name] = one
+    return [
+        chart._replace(name=f"stress{number}", title=title.capitalize())
+        for number, (title, group) in enumerate(groups.items())
+        for chart in _curves(group)
+    ]
 
 
 def _verdict(folder: Path) -> tuple[Status | None, list[Rows]]:

@@ -87,4 +87,5 @@ KIND = TestKind(
         "peak of 2 P / (pi D t)",
     ),
     calibrates={"indirect_tensile_strength": "peak_stress"},
+    scored="split",
 )

@@ -19,4 +19,5 @@ KIND = TestKind(
     rig=Rig.NONE,
     stages=(),
     calibrates={name: name for name in ("youngs_modulus", "poissons_ratio")},
+    scored="solved",
 )

@@ -95,4 +95,5 @@ KIND = TestKind(
     measure=_measure,
     words=bent.WORDS,
     calibrates={"scb_toughness": "fracture_toughness"},
+    scored="notched",
 )

@@ -46,4 +46,5 @@ KIND = TestKind(
     falls_freely=True,
     pulled=True,
     calibrates={"direct_tensile_strength": "peak_stress"},
+    scored="pulled",
 )

@@ -60,4 +60,5 @@ KIND = TestKind(
     falls_freely=True,
     is_core=True,
     envelope=True,
+    scored="confined",
 )

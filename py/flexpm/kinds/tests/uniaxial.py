@@ -53,4 +53,5 @@ KIND = TestKind(
         "crack_damage": ("crack_damage_stress", "peak_stress"),
     },
     envelope=True,
+    scored="compressed",
 )

@@ -1,0 +1,543 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scorecards: rock files, measures of made-up results, verdicts, files, and runs that resume."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import shutil
+
+import pytest
+from refusals import refusal, refused_command
+from sample_rows import row as record_row
+
+from flexpm import materials
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+from flexpm.kinds.registry import KINDS
+from flexpm.results import strength
+from flexpm.results.record import Curve
+from flexpm.results.result import Result
+from flexpm.studies import pages
+from flexpm.studies.scorecards import card, measures, output, rock, runs
+from flexpm.studies.scorecards.measures import MEASURES, Ended, Measure, Value
+from flexpm.studies.scorecards.rock import Band, Entry
+from flexpm.studies.scorecards.verdict import MET, NOT_KNOWN, NOT_MET, judge, judge_all
+
+GOOD = """
+[rock]
+name = "known"
+source = "a laboratory"
+[compressive_strength]
+value = 120e6
+lower = 110e6
+upper = 130e6
+unit = "Pa"
+decides = true
+[fracture_toughness.general]
+lower = 0.9e6
+"""
+STRENGTH = MEASURES["compressive_strength"]
+ENTRY = Entry(100e6, None, Band(90e6, 110e6, "a laboratory"), decides=True)
+
+
+def rock_of(folder, text):
+    path = folder / "rock.toml"
+    path.write_text(text)
+    return rock.read(path)
+
+
+def numbers(*given):
+    return [Value(one) for one in given]
+
+
+# Rock files
+
+
+@pytest.mark.parametrize("name", [*rock.names(), "template"])
+def test_rocks_that_are_included_can_be_read(name):
+    found = rock.read(rock._ROCKS / f"{name}.toml")
+    assert found.compressive_strength > 1e6
+    for measure, one in found.entries.items():
+        # what is not from a source decides nothing
+        assert not one.decides or one.band.source, measure
+
+
+def test_the_papers_rock_follows_from_its_table():
+    found = rock.load("augig", "any").entries
+    of_paper = {
+        "youngs_modulus": 25.8e9,
+        "poissons_ratio": 0.23,
+        "compressive_strength": 122.1e6,
+        "indirect_tensile_strength": 8.8e6,
+        "cohesion_low": 21e6,
+        "friction_angle_low": 53.0,
+    }
+    assert {name: found[name].value for name in of_paper} == of_paper
+    assert all(found[name].decides for name in of_paper)
+    # both readings of 53 degrees, and the peaks that follow
+    strength_of, slope = 122.1e6, math.tan(math.radians(45 + 53 / 2)) ** 2
+    readings = [
+        strength.hoek_brown([0.0, top], [strength_of, strength_of + slope * top])
+        for top in (4e6, 12e6)
+    ]
+    assert [round(one.m_i) for one in readings] == [18, 22]
+    for percent, share in measures.PRESSURES.items():
+        if percent > 3:
+            low, high = (one.strength(share * strength_of) / strength_of for one in readings)
+            entry = found[f"peak_ratio_{percent}"]
+            assert entry.value == pytest.approx(low, rel=0.013)
+            assert entry.band.has(low) and entry.band.has(high) and not entry.decides
+
+
+def test_a_preset_has_the_rock_of_its_name():
+    for name in ("augig-calibrated", "augig3d-calibrated-rigid"):
+        assert rock.load(None, name).name == "Augig granite"
+    assert "give a rock or its file" in refusal("named after none", rock.load, None, "mine")
+    assert "did you mean augig?" in refusal("unknown", rock.load, "augg", "mine")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("[rock]", "[rok]", "did you mean|unknown"),
+        ('name = "known"', 'nam = "known"', "did you mean name?"),
+        ('name = "known"', "name = 3", "must be a text"),
+        ("[compressive_strength]", "[compresive_strength]", "did you mean compressive_strength?"),
+        ("value = 120e6", "vlue = 120e6", "did you mean value?"),
+        ("value = 120e6\n", "", "must not be given without a value"),
+        ("value = 120e6", "value = 120", "must be >= 10000"),
+        ("value = 120e6", 'value = "120 MPa"', "must be a number"),
+        ("value = 120e6", "value = 140e6", "must lie in its band"),
+        ('unit = "Pa"', 'unit = "MPa"', "must be one of Pa"),
+        ("lower = 110e6\nupper = 130e6\n", "", "no band"),
+        ("lower = 110e6", "lower = 130e6\nspread = 1.0", "swap them"),
+        ("lower = 110e6", "lower = 110e6\nspread = -1.0", "must be >= 0"),
+        ('source = "a laboratory"\n', "", "decides, but has no source"),
+        ("decides = true", "decides = 1", "true or false"),
+        ("lower = 0.9e6", "lowr = 0.9e6", "did you mean lower?"),
+        ("lower = 0.9e6\n", "", "no band"),
+        ("[fracture_toughness.general]", "[fracture_toughness]", "without a value"),
+        ("[fracture_toughness.general]", "[fracture_toughness]\ndecides = true\nunit", "."),
+        ("[compressive_strength]", "[youngs_modulus]", "confining pressures are shares"),
+    ],
+)
+def test_wrong_rock_files_are_refused(tmp_path, old, new, says):
+    assert rock_of(tmp_path, GOOD).entries["compressive_strength"].value == 120e6
+    refusal(says.replace("?", r"\?"), rock_of, tmp_path, GOOD.replace(old, new))
+
+
+# Verdicts
+
+
+@pytest.mark.parametrize(
+    ("given", "mean", "within", "verdict"),
+    [
+        ((100e6,) * 5, 100e6, 5, MET),
+        ((90e6, 110e6), 100e6, 2, MET),
+        ((80e6, 120e6, 100e6, 100e6, 100e6), 100e6, 5, MET),  # the ends of twice the band
+        ((75e6, 100e6, 100e6, 100e6, 105e6), 96e6, 4, MET),  # four of five
+        ((75e6, 125e6, 100e6, 100e6, 100e6), 100e6, 3, NOT_MET),  # the mean alone is not enough
+        ((111e6,) * 5, 111e6, 5, NOT_MET),
+        ((100e6,), 100e6, 1, MET),
+    ],
+)
+def test_the_mean_lies_in_the_band_and_packings_within_twice_the_band(given, mean, within, verdict):
+    found = judge(STRENGTH, numbers(*given), ENTRY, full=False)
+    assert (found.verdict, found.within, found.reasons) == (verdict, within, ())
+    assert found.mean == pytest.approx(mean)
+    if len(given) == 1:
+        assert found.error is None
+    else:
+        spread = math.sqrt(sum((one - mean) ** 2 for one in given) / (len(given) - 1))
+        assert found.error == pytest.approx(spread / math.sqrt(len(given)), abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "given", "verdict"),
+    [
+        (0.1, None, 0.1, MET),
+        (0.1, None, 50.0, MET),
+        (0.1, None, 0.09, NOT_MET),
+        (None, 0.3, -9.0, MET),
+        (None, 0.3, 0.31, NOT_MET),
+    ],
+)
+def test_a_band_may_be_open(lower, upper, given, verdict):
+    entry = Entry(0.2, None, Band(lower, upper, "s"))
+    assert judge(MEASURES["drop_30"], numbers(given), entry, full=False).verdict == verdict
+
+
+def test_packings_that_do_not_count_leave_a_row_unknown():
+    def of(*values):
+        return judge(STRENGTH, values, ENTRY, full=True)
+
+    good, fast, none = Value(100e6), Value(95e6, "not quasi-static"), Value(None, "no peak")
+    assert of(good, good, good, good, none).verdict == MET  # four of five count
+    found = of(good, good, good, none, none)
+    assert (found.verdict, found.reasons) == (NOT_KNOWN, ("no peak in 2 of 5",))
+    assert (found.mean, found.within) == (100e6, 3)
+    found = of(fast, fast, fast)
+    assert (found.verdict, found.reasons) == (NOT_KNOWN, ("not quasi-static",))
+    assert (found.mean, found.within) == (95e6, 0)  # shown, and not counted
+    assert of(none).mean is None
+
+
+def test_small_specimens_leave_rows_unknown_that_depend_on_size():
+    entry = Entry(8.8e6, None, Band(8e6, 9e6, "s"), decides=True)
+    for name in MEASURES:
+        if MEASURES[name].needs_size:
+            assert judge(MEASURES[name], numbers(8.5e6), entry, full=False).reasons == ("size",)
+            assert judge(MEASURES[name], numbers(8.5e6), entry, full=True).verdict == MET
+    assert {name for name, one in MEASURES.items() if one.needs_size} == {
+        *("indirect_tensile_strength", "direct_indirect_ratio", "compressive_indirect_ratio"),
+        "fracture_toughness",
+    }
+
+
+def test_a_row_without_a_value_is_never_judged():
+    for entry in (None, Entry(general=Band(1.0, 2.0))):
+        found = judge(STRENGTH, numbers(1.5), entry, full=True)
+        assert (found.verdict, found.reasons) == (NOT_KNOWN, ("no value in the rock file",))
+        assert not found.fails(full=True) and found.mean == 1.5
+
+
+@pytest.mark.parametrize(
+    ("value", "decides", "small", "full"),
+    [
+        (Value(100e6), True, False, False),
+        (Value(50e6), True, True, True),
+        (Value(50e6), False, False, False),
+        (Value(None, "no peak"), True, False, True),
+        (Value(None, "no peak"), False, False, False),
+    ],
+)
+def test_only_rows_that_decide_fail_and_unknown_ones_only_with_full_specimens(
+    value, decides, small, full
+):
+    entry = Entry(ENTRY.value, None, ENTRY.band, decides)
+    assert judge(STRENGTH, [value], entry, full=False).fails(full=False) == small
+    assert judge(STRENGTH, [value], entry, full=True).fails(full=True) == full
+
+
+# Measures of made-up results
+
+
+def curve_through(*points, **columns):
+    made = Curve()
+    for number, (strain, stress) in enumerate(points):
+        values = {name: of[number] for name, of in columns.items()}
+        made.append(**record_row(axial_strain=strain, axial_stress=stress, **values))
+    return made
+
+
+def ended(test, curve=None, **values):
+    basic = {
+        **{"flexpm": "0", "yade": "0", "test": test, "model": "rigid", "material": {"name": "m"}},
+        **{"seed": 1, "grains": 9, "contacts": 9, "nodes": None, "triangles": None},
+    }
+    result = Result(**basic, **values, curve=curve or Curve())
+    return Ended(result, {key: value for key, value in values.items() if value is not None})
+
+
+def granite(**changes):
+    """Runs of a packing: a Hoek-Brown rock of 100 MPa and m_i 20."""
+    law = strength.HoekBrown(100e6, 20.0)
+    up = curve_through(
+        *((0.0, 0.0), (0.002, 50e6), (0.0036, 90e6), (0.004, 100e6), (0.005, 10e6)),
+        lateral_strain=(0.0, 0.0004, 0.0009, 0.002, 0.004),
+        tensile_cracks=(0, 0, 8, 30, 99),
+        shear_cracks=(0, 0, 0, 10, 99),
+    )
+    found = {
+        "solved": Ended(numbers={"youngs_modulus": 25e9, "poissons_ratio": 0.2}),
+        "compressed": ended(
+            *("uniaxial", up),
+            peak_stress=100e6,
+            crack_initiation_stress=45e6,
+            crack_damage_stress=80e6,
+            null_reasons={"crack_initiation_stress_volumetric": "cracks do not widen it"},
+            cracks_by_pair={"a/b": {"tensile": 3, "shear": 1}},
+        ),
+        "controlled": ended("uniaxial", peak_stress=99e6, softening_slope=20e9),
+        "pulled": ended("tension", peak_stress=6e6),
+        "split": ended("brazilian", peak_stress=8e6),
+        "notched": ended("scb", peak_stress=1e6, fracture_toughness=1.1e6),
+    }
+    for percent, share in measures.PRESSURES.items():
+        pressure = share * 100e6
+        peak = float(law.strength(pressure))
+        falling = curve_through(
+            *((0.0, pressure), (0.01, peak), (0.02, peak - 0.5 * (peak - pressure))),
+            lateral_strain=(0.0, 0.002, 0.022),
+            confinement=(pressure,) * 3,
+        )
+        run = ended("triaxial", falling, peak_stress=peak, inputs={"confinement": pressure})
+        found[measures.confined(percent)] = run
+    return {**found, **changes}
+
+
+def test_measures_of_a_known_rock():
+    found = runs.values_of(granite(), solid=True)
+    assert {name for name, one in found.items() if one.reason} == {"crack_initiation_volumetric"}
+    assert found["crack_initiation_volumetric"] == Value(None, "cracks do not widen it")
+    known = {
+        "youngs_modulus": 25e9,
+        "compressive_strength": 100e6,
+        "crack_initiation": 0.45,
+        "crack_damage": 0.8,
+        "secant_poissons_ratio_25": 0.2,
+        "secant_poissons_ratio_90": 0.25,
+        "tensile_share": 0.75,
+        "class_two": 1.0,
+        "direct_indirect_ratio": 0.75,
+        "compressive_indirect_ratio": 12.5,
+        "fracture_toughness": 1.1e6,
+        "hoek_brown_m": 20.0,
+        "drop_30": 0.25,  # half of it over 1 % of strain
+        "dilation_50": 4.0,  # 2 % of lateral strain over 1 %
+        "dilation_angle_50": math.degrees(math.asin(3.0 / 5.0)),
+    }
+    assert {name: found[name].number for name in known} == pytest.approx(known)
+    law = strength.HoekBrown(100e6, 20.0)
+    line = strength.mohr_coulomb([0.0, 3e6], [100e6, law.strength(3e6)])
+    assert found["friction_angle_low"].number == pytest.approx(line.friction_angle)
+    assert found["cohesion_low"].number == pytest.approx(line.cohesion)
+    assert found["friction_angle_wide"].number < line.friction_angle
+    assert found["peak_ratio_10"].number == pytest.approx(law.strength(10e6) / 100e6)
+    # 2D has one lateral direction
+    assert runs.values_of(granite(), solid=False)["dilation_50"].number == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize(
+    ("change", "measure", "reason"),
+    [
+        ({"split": ended("brazilian", status="no_peak")}, "direct_indirect_ratio", "no peak"),
+        (
+            {"pulled": ended("tension", peak_stress=6e6, status="not_quasistatic")},
+            *("direct_tensile_strength", "not quasi-static"),
+        ),
+        ({"notched": ended("scb", status="diverged")}, "fracture_toughness", "diverged"),
+        ({"split": Ended(message="exit")}, "compressive_indirect_ratio", "run failed"),
+        ({"confined_30": ended("triaxial", status="no_peak")}, "hoek_brown_m", "no peak"),
+        ({"controlled": ended("uniaxial", status="no_peak")}, "class_two", "no peak"),
+    ],
+)
+def test_reasons_of_measures_that_do_not_count(change, measure, reason):
+    assert runs.values_of(granite(**change), solid=True)[measure].reason == reason
+
+
+def test_grains_that_overlap_spoil_what_follows_the_peak_in_3d():
+    run = granite()["confined_30"].result
+    run.largest_overlap = 0.05
+    for solid, spoilt in ((True, {"drop_30", "dilation_30", "dilation_angle_30"}), (False, set())):
+        found = runs.values_of(granite(confined_30=Ended(run)), solid=solid)
+        assert {name for name, one in found.items() if one.reason == "overlap"} == spoilt
+    assert found["peak_ratio_50"].reason == ""
+
+
+def test_a_rock_that_never_peaks_has_a_drop_once_the_window_is_whole():
+    flat = curve_through((0.0, 0.0), (0.01, 100e6), (0.02, 98e6))
+    still = ended("triaxial", flat, status="no_peak")
+    found = runs.values_of(granite(confined_30=still), solid=True)
+    assert found["drop_30"] == Value(pytest.approx(0.01), "")
+    assert found["peak_ratio_30"].reason == "no peak"
+    rising = ended("triaxial", flat.until(2), status="no_peak")
+    found = runs.values_of(granite(confined_30=rising), solid=True)
+    assert found["drop_30"] == Value(None, "no peak")
+
+
+def test_cracks_by_pair_are_shares_of_all_cracks():
+    shares = {"pair": "a/b", "tensile": 0.75, "shear": 0.25}
+    assert runs.pairs_of([granite(), granite()]) == [shares]
+    assert runs.pairs_of([{}]) == []
+
+
+# What is asked for, and what is written
+
+
+def plan_of(material="augig-calibrated", **options):
+    return card.plan_of(material, options)
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ({"model": "rigd"}, "did you mean rigid?"),
+        ({"model": "jcfpm"}, "must be flexible or rigid"),
+        ({"shape": "disc"}, "known are rectangle, box, cylinder"),
+        ({"size": "tiny"}, "must be one of small, full"),
+        ({"seeds": [1, 1]}, "each once"),
+        ({"seeds": [-1]}, "seed"),
+        ({"rock": "none.toml"}, "cannot be read"),
+    ],
+)
+def test_wrong_options_are_refused(options, says):
+    refusal(says.replace("?", r"\?"), lambda: plan_of(**options))
+
+
+def test_the_command_refuses_in_one_line(capsys):
+    refused_command(capsys, "unknown preset", "scorecard", "augig-calibratd")
+    refused_command(capsys, "did you mean small", "scorecard", "augig-calibrated", "--size", "smal")
+
+
+@pytest.mark.parametrize(
+    ("material", "shape", "tests"),
+    [
+        ("augig-calibrated", "rectangle", {"biaxial": 4, "brazilian": 1}),
+        ("augig3d-calibrated-rigid", "box", {"triaxial": 4, "brazilian": 1}),
+    ],
+)
+def test_runs_follow_the_dimension_of_the_material(material, shape, tests):
+    plan = plan_of(material, seeds=[41, 42])
+    assert (plan.shape, plan.model) == (shape, "rigid" if "rigid" in material else "flexible")
+    jobs = plan.jobs()
+    assert len(jobs) == 2 and len({job.key for one in jobs.values() for job in one.values()}) == 20
+    asked = [job.inputs for job in jobs[41].values()]
+    assert {name: sum(one["test"] == name for one in asked) for name in tests} == tests
+    assert all(one["rate"] == 2.0 for one in asked if one["test"] != "elastic")
+    pressures = [one["confinement"] for one in asked if "confinement" in one]
+    assert pressures == pytest.approx([3.663e6, 12.21e6, 36.63e6, 61.05e6])
+    jaws = [one.get("jaw_radius") for one in asked if one["test"] == "brazilian"]
+    assert jaws == ([0.0225] if plan.solid else [None])
+    assert 300 < plan.grains < 500
+    assert plan_of(material, size="full").jobs()[41]["compressed"].inputs["rate"] == 1.0
+
+
+def test_each_role_has_one_test_in_each_dimension():
+    roles = {kind.scored for kind in KINDS.values()} - {""}
+    assert roles == {"solved", "compressed", "confined", "pulled", "split", "notched"}
+    for role in roles:
+        for solid in (False, True):
+            of_role = [kind for kind in KINDS.values() if kind.scored == role]
+            assert sum(kind.variant_in(solid=solid) is not None for kind in of_role) == 1
+
+
+def test_files_have_all_rows_and_the_page_is_made_from_them(tmp_path, monkeypatch):
+    plan = plan_of(seeds=[41])
+    packings = [runs.values_of(granite(), solid=False)]
+    rows = judge_all(packings, plan.rock.entries, full=False)
+    pairs = runs.pairs_of([granite()])
+    output.write(tmp_path, plan, rows, pairs)
+    content = json.loads((tmp_path / output.FILE).read_text())
+    assert [one["measure"] for one in content["rows"]] == [*MEASURES]
+    assert content["failed"] == [one.measure.name for one in rows if one.fails(full=False)] != []
+    with (tmp_path / output.TABLE).open() as file:
+        table = {one["measure"]: one for one in csv.DictReader(file)}
+    assert table["crack_initiation"]["general_upper"] == "0.6"
+    assert (table["compressive_strength"]["mean"], table["compressive_strength"]["decides"]) == (
+        "100000000.0",
+        "true",
+    )
+    page = pages.write(tmp_path).read_text()
+    assert "Cracks by pair of minerals" in page and "data:image/" in page
+    assert all(one.words in page for one in MEASURES.values() if "'" not in one.words)
+    text = output.table(plan, rows, pairs)
+    assert len(text.splitlines()) == len(MEASURES) + 5
+    assert "no value in the rock file" in text
+
+
+@pytest.mark.parametrize(("lower", "code"), [(1.0, 0), (1e9, 3)])
+def test_the_exit_code_is_3_if_a_measure_that_decides_is_not_met(
+    tmp_path, monkeypatch, capsys, lower, code
+):
+    """The runs are made up: each has the same strength."""
+
+    class Pool:
+        def __init__(self, *_, **__):
+            pass
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            pass
+
+        def run(self, wanted, progress=None):
+            return [{"exit_code": 0, "message": "", "result": {"youngs_modulus": 5e8}}] * len(
+                wanted
+            )
+
+    monkeypatch.setattr(card, "Pool", Pool)
+    text = f"""
+    [compressive_strength]
+    value = 120e6
+    lower = 110e6
+    decides = true
+    source = "s"
+    [youngs_modulus]
+    value = {max(2.0 * lower, 1e5)}
+    lower = {max(lower, 1e4)}
+    decides = true
+    source = "s"
+    """
+    file = tmp_path / "mine.toml"
+    file.write_text(text)
+    asked = ["scorecard", "augig-calibrated", "--rock", str(file), "--seeds", "41", "--quiet"]
+    assert cli.main([*asked, "--out", str(tmp_path / "card")]) == code
+    said = capsys.readouterr()
+    assert "10 runs, 0 of them finished; about 390 grains" in said.out
+    if code:
+        assert said.err.startswith("flexpm: measures = youngs_modulus, not met")
+
+
+def test_a_folder_with_other_results_is_refused(tmp_path):
+    (tmp_path / "history.csv").write_text("round\n")
+    with pytest.raises(InputError, match="has results of calibrate"):
+        card.scorecard("augig-calibrated", tmp_path)
+
+
+# Real runs
+
+_GRAINS = {"diameters": (0.003, 0.004)}
+_TINY = {
+    "rectangle": {"width": 0.012, "height": 0.024},
+    "disc": {"diameter": 0.016},
+    "half-disc": {"diameter": 0.024},
+    "box": {"width": 0.008, "depth": 0.008, "height": 0.014},
+    "solid-disc": {"diameter": 0.016, "depth": 0.008},
+    "solid-half-disc": {"diameter": 0.016, "depth": 0.008},
+}
+TINY = runs.Size("tiny", False, 30.0, _TINY, _GRAINS)
+
+
+def started(monkeypatch):
+    """Commands of the runs that are started, as they are."""
+    found = []
+    command = card.jobs.Job.command
+
+    def counted(self, *arguments):
+        found.append(self.key)
+        return command(self, *arguments)
+
+    monkeypatch.setattr(card.jobs.Job, "command", counted)
+    return found
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("shape", ["rectangle", "box"])
+def test_no_run_is_done_twice_and_missing_ones_are(tmp_path, monkeypatch, shape):
+    material = "augig3d-calibrated-rigid" if shape == "box" else "augig-calibrated-rigid"
+    asked = {"shape": shape, "seeds": [41], "size": TINY, "model": "rigid", "report": False}
+    begun = started(monkeypatch)
+    first = card.scorecard(material, tmp_path, **asked)
+    assert len(begun) == len(set(begun)) == 10
+    for name in ("youngs_modulus", "compressive_strength", "direct_tensile_strength"):
+        assert first.row(name).mean > 0.0, first.row(name)
+    whole = (tmp_path / output.FILE).read_bytes()
+    assert card.scorecard(material, tmp_path, **asked).rows == first.rows
+    assert len(begun) == 10  # nothing again
+    # a run that was interrupted has no outcome
+    lost = tmp_path / "runs" / begun[3]
+    shutil.rmtree(lost)
+    card.scorecard(material, tmp_path, **asked)
+    assert begun[10:] == [begun[3]]
+    assert (tmp_path / output.FILE).read_bytes() == whole
+
+
+def test_a_measure_knows_its_runs():
+    names = {*granite()}
+    assert all(set(one.runs) <= names for one in MEASURES.values())
+    assert all(isinstance(one, Measure) and one.about for one in MEASURES.values())
+    assert materials.load("augig-calibrated").made_for is not None
