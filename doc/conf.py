@@ -21,7 +21,15 @@ author = "The flexpm developers"
 copyright = author
 release = re.search(r'__version__ = "(.*)"', (PACKAGE / "flexpm" / "_version.py").read_text())[1]
 extensions = [
-    *("availability", "gallery", "result_schema", "rooms", "test_pages", "yade_classes"),
+    *(
+        "availability",
+        "gallery",
+        "result_schema",
+        "rooms",
+        "scorecards",
+        "test_pages",
+        "yade_classes",
+    ),
     *("sphinx.ext.autodoc", "sphinx.ext.napoleon", "matplotlib.sphinxext.plot_directive"),
 ]
 # sketches of doc/figures, which a build plots

@@ -13,7 +13,7 @@ from docutils.parsers.rst import Directive
 Cell = str | tuple[str, ...]
 
 
-def _table(
+def table_of(
     head: Sequence[Cell], rows: Iterator[Sequence[Cell]], widths: Sequence[int]
 ) -> nodes.table:
     """A table with a head."""
@@ -42,7 +42,7 @@ class TestsByDimension(Directive):
     def run(self) -> list[nodes.Node]:
         """Return a table with a line for each test."""
         head = ("Test", "2D: shapes", "2D: models", "3D: shapes", "3D: models")
-        return [_table(head, self._rows(), (12, 14, 28, 20, 26))]
+        return [table_of(head, self._rows(), (12, 14, 28, 20, 26))]
 
     @staticmethod
     def _rows() -> Iterator[Sequence[str]]:
@@ -64,7 +64,7 @@ class FeaturesByDimension(Directive):
     def run(self) -> list[nodes.Node]:
         """Return a table with a line for each feature."""
         head = ("Feature", "Requested by", "Available in", "In the other dimension")
-        return [_table(head, self._rows(), (20, 34, 10, 36))]
+        return [table_of(head, self._rows(), (20, 34, 10, 36))]
 
     @staticmethod
     def _rows() -> Iterator[Sequence[Cell]]:

@@ -26,6 +26,7 @@ from flexpm.specimens.labels import ebsd, picture, tesr
 from flexpm.specimens.space.cells import sphere_rows
 from flexpm.specimens.specimen import Specimen
 from flexpm.studies import calibration_problem, study
+from flexpm.studies.scorecards import rock
 
 CORNERS = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.5, 0.0), (0.5, 1.0)]
 PHASE = np.array([[1, 1, 2], [1, 0, 2], [1, 2, 2]])
@@ -150,6 +151,23 @@ of = "cohesion"
 to = "tensile_strength"
 bounds = [1.5, 40]
 """
+ROCK = """[rock]
+name = "granite"
+presets = ["mine"]
+source = "laboratory"
+
+[compressive_strength]
+value = 120e6
+spread = 8e6
+lower = 110e6
+upper = 130e6
+unit = "Pa"
+decides = true
+
+[drop_30.general]
+lower = 0.1
+source = "granites"
+"""
 #: Content of each file, by its name.
 TEXTS = {
     "a.tess": tess_text(CORNERS, [[0, 4, 5, 3], [4, 1, 2, 5]], [(0.25, 0.5, 0), (0.75, 0.5, 0)]),
@@ -176,6 +194,7 @@ TEXTS = {
     "material.toml": MATERIAL,
     "study.toml": STUDY,
     "calibration.toml": CALIBRATION,
+    "rock.toml": ROCK,
     "phases.toml": '0 = "hole"\n1 = "quartz"\n2 = "mica"\n',
 }
 
@@ -252,6 +271,7 @@ READERS: dict[str, Callable[[Path], Any]] = {
     "material.toml": _material,
     "study.toml": lambda path: [job.key for job in study.read(path).jobs],
     "calibration.toml": lambda path: calibration_problem.read(path).targets,
+    "rock.toml": rock.read,
     "phases.toml": _phases,
     **dict.fromkeys(BYTES, _picture),
     "b.tesr": lambda path: tesr.read(path).tolist(),

@@ -42,14 +42,13 @@ from .calibration_report import unit_of
 from .calibration_verdict import FILE as VERDICT
 from .jobs import place_of
 from .scorecards.output import FILE as SCORECARD
-from .scorecards.output import HEADER, PAIRS, pair_lines
+from .scorecards.output import HEADER, NOTE, PAIRS, pair_lines
 from .scorecards.output import PICTURE as BARS
 
 #: Maps of a comparison; each takes about a third of a megabyte for the paper's specimen.
 _MOST_MAPS = 6
 #: Runs whose curves a page shows, points of each, and rows of a table.
 _MOST_CURVES, _POINTS, _MOST_ROWS = 30, 400, 300
-_PARENTHESES = "In parentheses: band of similar rocks, which is not judged."
 #: Columns of a run that stand in each table of runs.
 _MORE = ("fragments", "status")
 
@@ -234,7 +233,7 @@ def _scorecard(folder: Path) -> Page:
         f"{', '.join(map(str, content['seeds']))}",
         versions=_versions(found),
         status=_box(content),
-        results=Rows("Measures", HEADER, content["table"], _PARENTHESES),
+        results=Rows("Measures", HEADER, content["table"], NOTE),
         warnings=_shared_warnings(found),
         charts=_curves_by_test(found),
         tables=[*tables, *_about(found)],

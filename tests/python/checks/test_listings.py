@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[3]
 DOC = ROOT / "doc"
 PAGES = (ROOT / "README.md", *sorted(DOC.rglob("*.rst")))
 #: Commands of hours, and such that need another program: test_docs.py has them parsed.
-NOT_RUN = ("calibrate", "study", "bench")
+NOT_RUN = ("calibrate", "scorecard", "study", "bench")
 
 
 def shown_commands():

@@ -221,12 +221,12 @@ def _initiation(name: str, words: str, about: str) -> Measure:
 
 def _under_pressure(percent: int) -> list[Measure]:
     """Measures of the run under a percentage of the compressive strength."""
-    share, run = f"{PRESSURES[percent]:g} of the strength", (confined(percent),)
+    share, run = f"{PRESSURES[percent]:g}", (confined(percent),)
     past = partial(Measure, runs=run, needs_peak=False, after_peak=True)
     return [
         Measure(
             f"peak_ratio_{percent}",
-            f"peak at {share}",
+            f"peak over strength at {share}",
             "-",
             (*run, COMPRESSED),
             partial(_peak_ratio, percent),
@@ -345,14 +345,14 @@ _ALL = (
         needs_size=True,
     ),
     Measure(
-        *("direct_indirect_ratio", "direct over indirect tension", "-", (PULLED, SPLIT)),
+        *("direct_indirect_ratio", "direct / indirect tension", "-", (PULLED, SPLIT)),
         partial(_quotient, (PULLED, "peak_stress"), (SPLIT, "peak_stress")),
         "direct over indirect tensile strength",
         _RATIO,
         needs_size=True,
     ),
     Measure(
-        *("compressive_indirect_ratio", "compression over indirect tension", "-"),
+        *("compressive_indirect_ratio", "compression / indirect tension", "-"),
         (COMPRESSED, SPLIT),
         partial(_quotient, (COMPRESSED, "peak_stress"), (SPLIT, "peak_stress")),
         "compressive over indirect tensile strength",

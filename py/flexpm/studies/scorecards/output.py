@@ -20,7 +20,10 @@ from .runs import Plan
 from .verdict import MET, NOT_KNOWN, NOT_MET, Row
 
 FILE, TABLE, PICTURE = "scorecard.json", "scorecard.csv", "scorecard.png"
-HEADER = ("measure", "rock", "band", "mean", "±", "within", "decides", "verdict")
+HEADER = ("measure", "rock", "band", "mean", "±", "within", "verdict")
+NOTE = (
+    "*: decides; in parentheses: band of similar rocks, not judged; no value: none in the rock file"
+)
 #: Units in which measures are shown, by their own; moduli are shown in GPa.
 _SHOWN = {
     "Pa": (1e-6, "MPa"),
@@ -53,13 +56,12 @@ def lines(rows: Sequence[Row]) -> list[tuple[str, ...]]:
         within = "-" if row.within is None else f"{row.within} of {len(row.values)}"
         found.append(
             (
-                f"{row.measure.words} [{unit}]",
+                f"{row.measure.words} [{unit}]{' *' if entry.decides else ''}",
                 scaled(entry.value, factor, ""),
                 band,
                 _cell(row.mean, factor, 4),
                 _cell(row.error, factor, 2),
                 within,
-                "yes" if entry.decides else "",
                 verdict_text(row),
             )
         )
@@ -84,7 +86,7 @@ def table(plan: Plan, rows: Sequence[Row], pairs: Sequence[Table]) -> str:
         f"{plan.size.name}; rock: {name_of(plan.rock.name)}"
     )
     text = f"{title}\n{columns(HEADER, lines(rows))}"
-    text += "\n  in parentheses: band of similar rocks, which is not judged"
+    text += f"\n  {NOTE}"
     return f"{text}\n{columns(PAIRS, pair_lines(pairs))}" if pairs else text
 
 
@@ -170,7 +172,9 @@ def picture(path: Path, plan: Plan, rows: Sequence[Row]) -> None:
         axes.set_ylim(len(drawn) - 0.4, -0.6)
         axes.set_xlabel(
             "distance from the middle of the band, in its half widths [-]\n"
-            "light: twice the band; hatched: similar rocks, not judged; *: decides"
+            "diamonds: means; circles: packings; *: decides\n"
+            "green: met; orange: not met; grey: not known\n"
+            "light: twice the band; hatched: similar rocks, not judged"
         )
         title = f"{plan.material} ({plan.model}, {plan.size.name}) and {plan.rock.name}"
         axes.set_title(label_of(title), fontsize=9.5, loc="left")

@@ -30,8 +30,7 @@ from .rock import Rock
 SHAPES = ("rectangle", "box", "cylinder")
 _MODELS = ("flexible", "rigid")
 #: Largest axial strain of a run under a confining pressure [-], by the percentage of the pressure.
-#: Granites reach their peaks at 0.7 to 2.5 %.
-MAX_STRAINS = {3: 0.015, 10: 0.02, 30: 0.03, 50: 0.03}
+MAX_STRAINS = {3: 0.015, 10: 0.025, 30: 0.03, 50: 0.03}
 #: Part of its peak below which the deviator of such a run never falls: it goes to its strain [-].
 _NO_STOP = 0.01
 #: Radius of jaws over the radius of the disc, as suggested by the ISRM [-].

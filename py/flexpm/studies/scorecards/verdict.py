@@ -19,7 +19,7 @@ from .measures import MEASURES, Measure, Value
 from .rock import Entry
 
 MET, NOT_MET, NOT_KNOWN = "met", "not met", "not known"
-NO_VALUE, SIZE = "no value in the rock file", "size"
+NO_VALUE, SIZE = "no value", "size"
 #: Share of the packings that must count, and that must lie within twice the band [-].
 LEAST_SHARE = 0.8
 #: Rounding of a share of whole packings [-].
