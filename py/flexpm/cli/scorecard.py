@@ -76,6 +76,8 @@ def scorecard(material: str, out: Path, quiet: bool, **options: Any) -> None:
     with terminal.Progress(quiet, unit="runs") as progress:
         found = card.carry_out(plan, folder, {**options, "progress": progress})  # type: ignore[typeddict-item]
     terminal.say(str(found))
+    for line in found.lost:
+        terminal.say(f"failed: {line}")
     terminal.say(f"  files  {folder}/")
     if found.failed:
         raise SimulationError(

@@ -34,7 +34,7 @@ VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --po
 FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothing"]
 NAMED = """--model --material --mesh --start --loading --wave --sides --control --film --specimen
     --joints --name --network --phases --shape
-    --models --unindexed""".split()
+    --models --unindexed --size --rock""".split()
 #: Options that are given below, or that lead to other files, long work or other machines.
 NOT_DRAWN = """--width --height --out --quiet --steps --scaling --large --json --scheduler
     --cluster --version""".split()
@@ -79,7 +79,7 @@ COMMANDS = st.sampled_from(
         *(("specimen", "tess", name) for name in ("a.tess", "b.tess", "c.tess", "s.tess")),
         *(("run", test, *file) for test in ("uniaxial", "bending") for file in READ_2D),
         *(("run", test, "--specimen", "solid.json") for test in ("uniaxial", "triaxial", "shear")),
-        *((name, "nofile.toml") for name in ("study", "calibrate", "rerun", "report")),
+        *((name, "nofile.toml") for name in ("study", "calibrate", "scorecard", "rerun", "report")),
         *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),
         ("bench", "--shape", "box"),
         ("elastic", "--shape", "cylinder"),

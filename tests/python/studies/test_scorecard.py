@@ -369,6 +369,7 @@ def plan_of(material="augig-calibrated", **options):
         ({"shape": "disc"}, "known are rectangle, box, cylinder"),
         ({"size": "tiny"}, "must be one of small, full"),
         ({"seeds": [1, 1]}, "each once"),
+        ({"seeds": []}, "one or more"),
         ({"seeds": [-1]}, "seed"),
         ({"rock": "none.toml"}, "cannot be read"),
     ],
@@ -434,6 +435,7 @@ def test_files_have_all_rows_and_the_page_is_made_from_them(tmp_path, monkeypatc
     assert "Cracks by pair of minerals" in page and "data:image/" in page
     assert all(one.words in page for one in MEASURES.values() if "'" not in one.words)
     text = output.table(plan, rows, pairs)
+    assert "17 to 23 (25 to 33)" in text and " (0.4 to 0.6)" in text
     assert len(text.splitlines()) == len(MEASURES) + 5
     assert "no value" in text
 
@@ -442,7 +444,7 @@ def test_files_have_all_rows_and_the_page_is_made_from_them(tmp_path, monkeypatc
 def test_the_exit_code_is_3_if_a_measure_that_decides_is_not_met(
     tmp_path, monkeypatch, capsys, lower, code
 ):
-    """The runs are made up: each has the same strength."""
+    """The runs are made up: only the direct solve has a result."""
 
     class Pool:
         def __init__(self, *_, **__):
@@ -455,9 +457,9 @@ def test_the_exit_code_is_3_if_a_measure_that_decides_is_not_met(
             pass
 
         def run(self, wanted, progress=None):
-            return [{"exit_code": 0, "message": "", "result": {"youngs_modulus": 5e8}}] * len(
-                wanted
-            )
+            solved = {"exit_code": 0, "message": "", "result": {"youngs_modulus": 5e8}}
+            lost = {"exit_code": -9, "message": "ended by signal 9", "result": {}}
+            return [solved, *[lost] * (len(wanted) - 1)]
 
     monkeypatch.setattr(card, "Pool", Pool)
     text = f"""
@@ -477,6 +479,7 @@ def test_the_exit_code_is_3_if_a_measure_that_decides_is_not_met(
     asked = ["scorecard", "augig-calibrated", "--rock", str(file), "--seeds", "41", "--quiet"]
     assert cli.main([*asked, "--out", str(tmp_path / "card")]) == code
     said = capsys.readouterr()
+    assert "failed: seed 41 compressed: ended by signal 9" in said.out
     assert "10 runs, 0 of them finished; about 390 grains" in said.out
     if code:
         assert said.err.startswith("flexpm: measures = youngs_modulus, not met")

@@ -47,11 +47,13 @@ class Scorecard:
         plan: What was asked for.
         rows: A row for each measure.
         pairs: Shares of cracks in compression by pair of minerals; empty without minerals.
+        lost: Runs that failed without a result: seed, name and message of each.
     """
 
     plan: Plan
     rows: Sequence[Row]
     pairs: Sequence[Table]
+    lost: Sequence[str] = ()
 
     @property
     def failed(self) -> list[str]:
@@ -119,13 +121,13 @@ def plan_of(material: Path | str, options: ScorecardOptions) -> Plan:
     Raises:
         InputError: for a value that is wrong.
     """
-    loaded = load_material(material)
+    loaded, seeds = load_material(material), options.get("seeds")
     made = runs.plan(
         loaded,
         str(material),
         model=options.get("model"),
         shape=options.get("shape"),
-        seeds=tuple(options.get("seeds") or SEEDS),
+        seeds=SEEDS if seeds is None else tuple(seeds),
         size=options.get("size", "small"),
         rock=rock.load(options.get("rock"), loaded.name),
     )
@@ -172,4 +174,10 @@ def carry_out(plan: Plan, folder: Path, options: ScorecardOptions) -> Scorecard:
         from .. import pages  # what draws them loads long
 
         pages.write(folder)
-    return Scorecard(plan, rows, pairs)
+    lost = [
+        f"seed {seed} {name}: {' '.join(one.message.split())}"
+        for seed, of_packing in zip(by_seed, packings, strict=True)
+        for name, one in of_packing.items()
+        if one.result is None and one.message
+    ]
+    return Scorecard(plan, rows, pairs, lost)

@@ -50,15 +50,14 @@ def lines(rows: Sequence[Row]) -> list[tuple[str, ...]]:
     for row in rows:
         factor, unit = shown(row.measure)
         entry = row.entry
-        band = "-" if entry.value is None else text_of(entry.band, factor)
-        if entry.value is None and entry.general is not None:
-            band = f"({text_of(entry.general, factor)})"
+        bands = [] if entry.value is None else [text_of(entry.band, factor)]
+        bands += [] if entry.general is None else [f"({text_of(entry.general, factor)})"]
         within = "-" if row.within is None else f"{row.within} of {len(row.values)}"
         found.append(
             (
                 f"{row.measure.words} [{unit}]{' *' if entry.decides else ''}",
                 scaled(entry.value, factor, ""),
-                band,
+                " ".join(bands) or "-",
                 _cell(row.mean, factor, 4),
                 _cell(row.error, factor, 2),
                 within,
@@ -198,10 +197,10 @@ def _bar(axes: Axes, number: int, row: Row) -> None:
         axes.barh(number, width, left=low, height=0.62, color="#eef3f7")
         low, width = span(band)
         axes.barh(number, width, left=low, height=0.62, color="#c3d5e2")
-    else:
-        low, width = span(band)
+    if entry.general is not None:
+        low, width = span(entry.general)
         axes.barh(
-            *(number, width), left=low, height=0.62, color="white", edgecolor="0.75", hatch="////"
+            *(number, width), left=low, height=0.62, color="none", edgecolor="0.65", hatch="////"
         )
     places = [at(one.number) for one in row.values if one.number is not None]
     axes.plot(places, [number] * len(places), "o", ms=3.5, mfc="none", mec=colour)
