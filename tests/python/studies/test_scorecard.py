@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scorecards: rock files, measures of made-up results, verdicts, files, and runs that resume."""
+"""Scorecards: measures of made-up results, verdicts, files, and runs that resume."""
 
 from __future__ import annotations
 
 import csv
 import json
 import math
-import shutil
+import signal
+import subprocess
+import time
 
 import pytest
 from refusals import refusal, refused_command
@@ -20,112 +22,17 @@ from flexpm.results import strength
 from flexpm.results.record import Curve
 from flexpm.results.result import Result
 from flexpm.studies import pages
-from flexpm.studies.scorecards import card, measures, output, rock, runs
+from flexpm.studies.scorecards import card, measures, output, runs
 from flexpm.studies.scorecards.measures import MEASURES, Ended, Measure, Value
 from flexpm.studies.scorecards.rock import Band, Entry
 from flexpm.studies.scorecards.verdict import MET, NOT_KNOWN, NOT_MET, judge, judge_all
 
-GOOD = """
-[rock]
-name = "known"
-source = "a laboratory"
-[compressive_strength]
-value = 120e6
-lower = 110e6
-upper = 130e6
-unit = "Pa"
-decides = true
-[fracture_toughness.general]
-lower = 0.9e6
-"""
 STRENGTH = MEASURES["compressive_strength"]
 ENTRY = Entry(100e6, None, Band(90e6, 110e6, "a laboratory"), decides=True)
 
 
-def rock_of(folder, text):
-    path = folder / "rock.toml"
-    path.write_text(text)
-    return rock.read(path)
-
-
 def numbers(*given):
     return [Value(one) for one in given]
-
-
-# Rock files
-
-
-@pytest.mark.parametrize("name", [*rock.names(), "template"])
-def test_rocks_that_are_included_can_be_read(name):
-    found = rock.read(rock._ROCKS / f"{name}.toml")
-    assert found.compressive_strength > 1e6
-    for measure, one in found.entries.items():
-        # what is not from a source decides nothing
-        assert not one.decides or one.band.source, measure
-
-
-def test_the_papers_rock_follows_from_its_table():
-    found = rock.load("augig", "any").entries
-    of_paper = {
-        "youngs_modulus": 25.8e9,
-        "poissons_ratio": 0.23,
-        "compressive_strength": 122.1e6,
-        "indirect_tensile_strength": 8.8e6,
-        "cohesion_low": 21e6,
-        "friction_angle_low": 53.0,
-    }
-    assert {name: found[name].value for name in of_paper} == of_paper
-    assert all(found[name].decides for name in of_paper)
-    # both readings of 53 degrees, and the peaks that follow
-    strength_of, slope = 122.1e6, math.tan(math.radians(45 + 53 / 2)) ** 2
-    readings = [
-        strength.hoek_brown([0.0, top], [strength_of, strength_of + slope * top])
-        for top in (4e6, 12e6)
-    ]
-    assert [round(one.m_i) for one in readings] == [18, 22]
-    for percent, share in measures.PRESSURES.items():
-        if percent > 3:
-            low, high = (one.strength(share * strength_of) / strength_of for one in readings)
-            entry = found[f"peak_ratio_{percent}"]
-            assert entry.value == pytest.approx(low, rel=0.013)
-            assert entry.band.has(low) and entry.band.has(high) and not entry.decides
-
-
-def test_a_preset_has_the_rock_of_its_name():
-    for name in ("augig-calibrated", "augig3d-calibrated-rigid"):
-        assert rock.load(None, name).name == "Augig granite"
-    assert "give a rock or its file" in refusal("named after none", rock.load, None, "mine")
-    assert "did you mean augig?" in refusal("unknown", rock.load, "augg", "mine")
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "says"),
-    [
-        ("[rock]", "[rok]", "did you mean|unknown"),
-        ('name = "known"', 'nam = "known"', "did you mean name?"),
-        ('name = "known"', "name = 3", "must be a text"),
-        ("[compressive_strength]", "[compresive_strength]", "did you mean compressive_strength?"),
-        ("value = 120e6", "vlue = 120e6", "did you mean value?"),
-        ("value = 120e6\n", "", "must not be given without a value"),
-        ("value = 120e6", "value = 120", "must be >= 10000"),
-        ("value = 120e6", 'value = "120 MPa"', "must be a number"),
-        ("value = 120e6", "value = 140e6", "must lie in its band"),
-        ('unit = "Pa"', 'unit = "MPa"', "must be one of Pa"),
-        ("lower = 110e6\nupper = 130e6\n", "", "no band"),
-        ("lower = 110e6", "lower = 130e6\nspread = 1.0", "swap them"),
-        ("lower = 110e6", "lower = 110e6\nspread = -1.0", "must be >= 0"),
-        ('source = "a laboratory"\n', "", "decides, but has no source"),
-        ("decides = true", "decides = 1", "true or false"),
-        ("lower = 0.9e6", "lowr = 0.9e6", "did you mean lower?"),
-        ("lower = 0.9e6\n", "", "no band"),
-        ("[fracture_toughness.general]", "[fracture_toughness]", "without a value"),
-        ("[fracture_toughness.general]", "[fracture_toughness]\ndecides = true\nunit", "."),
-        ("[compressive_strength]", "[youngs_modulus]", "confining pressures are shares"),
-    ],
-)
-def test_wrong_rock_files_are_refused(tmp_path, old, new, says):
-    assert rock_of(tmp_path, GOOD).entries["compressive_strength"].value == 120e6
-    refusal(says.replace("?", r"\?"), rock_of, tmp_path, GOOD.replace(old, new))
 
 
 # Verdicts
@@ -518,25 +425,42 @@ def started(monkeypatch):
     return found
 
 
+#: A scorecard in a process of its own.
+KILLED = """
+from flexpm.studies.scorecards import card, measures
+from flexpm.studies.scorecards.runs import Size
+measures.PRESSURES = {pressures}
+card.scorecard({material!r}, {out!r}, workers=1, **{asked})
+"""
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("shape", ["rectangle", "box"])
-def test_no_run_is_done_twice_and_missing_ones_are(tmp_path, monkeypatch, shape):
+def test_a_killed_scorecard_does_what_is_missing_and_then_nothing(
+    tmp_path, monkeypatch, package_parent, shape
+):
     material = "augig3d-calibrated-rigid" if shape == "box" else "augig-calibrated-rigid"
+    pressures = {3: 0.03}  # the others only take time
+    monkeypatch.setattr(measures, "PRESSURES", pressures)
     asked = {"shape": shape, "seeds": [41], "size": TINY, "model": "rigid", "report": False}
-    monkeypatch.setattr(measures, "PRESSURES", {3: 0.03})  # the others only take time
+    text = KILLED.format(pressures=pressures, material=material, out=str(tmp_path), asked=asked)
+    python = ["env", f"PYTHONPATH={package_parent}", "/usr/bin/python3", "-P", "-c", text]
+    process = subprocess.Popen(python, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    while len(list(tmp_path.glob("runs/*/outcome.json"))) < 2:
+        assert process.poll() is None, process.stderr.read()
+        time.sleep(0.02)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    done = {file.parent.name for file in tmp_path.glob("runs/*/outcome.json")}
+    assert 2 <= len(done) < 7
     begun = started(monkeypatch)
     first = card.scorecard(material, tmp_path, **asked)
-    assert len(begun) == len(set(begun)) == 7
+    assert len(begun) == 7 - len(done) and not done & {*begun}  # the missing ones, each once
     for name in ("youngs_modulus", "compressive_strength", "direct_tensile_strength"):
         assert first.row(name).mean > 0.0, first.row(name)
     whole = (tmp_path / output.FILE).read_bytes()
     assert card.scorecard(material, tmp_path, **asked).rows == first.rows
-    assert len(begun) == 7  # nothing again
-    # a run that was interrupted has no outcome
-    lost = tmp_path / "runs" / begun[3]
-    shutil.rmtree(lost)
-    card.scorecard(material, tmp_path, **asked)
-    assert begun[7:] == [begun[3]]
+    assert len(begun) == 7 - len(done)  # nothing again
     assert (tmp_path / output.FILE).read_bytes() == whole
 
 
