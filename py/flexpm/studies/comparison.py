@@ -144,7 +144,8 @@ def compare(
         material: Name of a preset, TOML file, or material; or a mapping from the name of a model to
             its material. A model without a material has the default of flexible grains:
             ``augig-table7`` in 2D, ``augig3d-calibrated`` in 3D.
-        confinements: Confining pressures [Pa], for ``biaxial``; an envelope needs two or more.
+        confinements: Confining pressures [Pa], for ``biaxial``, ``triaxial`` and ``punch``; an
+            envelope needs two or more.
         out: Folder for tables and pictures, with a folder for each run; None writes no files.
         progress: Function that is called with (steps done, steps expected, text).
         threads: Number of threads of a step; results do not depend on it.

@@ -45,7 +45,7 @@ KIND = TestKind(
         Option("wave", "Pressure or shear wave", choices=WAVES, default=WAVES[0]),
         Option(
             SIDES,
-            "Sides: fixed perpendicular to the motion of the wave, or free as in a thin bar",
+            "Sides: fixed perpendicular to the motion of the grains, or free as in a thin bar",
             choices=(HELD, FREE),
             default=HELD,
             open=HELD,
