@@ -38,7 +38,7 @@ def loss(plan: Calibration, target: Target, outcomes: Outcomes, seeds: Sequence[
     for (test, confinement), key in plan.entries(target):
         runs = [outcomes[seed][test, confinement] for seed in seeds]
         lost = [run for run in runs if run.get("result", {}).get(key) is None]
-        for (why, remedy), count in Counter(map(_reason, lost)).items():
+        for (why, remedy), count in Counter(_reason(run, key) for run in lost).items():
             where = f"{test} at {1e-6 * confinement:g} MPa" if confinement else test
             lines.append(f"{where} {why} in {count} of {len(runs)} runs{_size(lost)}")
             remedies.append(remedy)
@@ -47,9 +47,11 @@ def loss(plan: Calibration, target: Target, outcomes: Outcomes, seeds: Sequence[
     return f"{', '.join(lines)}; {', '.join(dict.fromkeys(remedies))}"
 
 
-def _reason(run: Table) -> tuple[str, str]:
-    """Outcome of a run without the measure, and the remedy."""
+def _reason(run: Table, key: str) -> tuple[str, str]:
+    """Outcome of a run without a key of result.json, and the remedy."""
     status = run.get("result", {}).get("status")
+    if status == "ok":
+        return f"has no {key}", "see null_reasons in result.json of the runs"
     if status is not None:
         return f"ended {status}", _REMEDIES.get(status, _FAILED)
     message = str(run.get("message") or "failed")

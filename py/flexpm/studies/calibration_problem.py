@@ -157,7 +157,7 @@ class Calibration:
         keys meet them.
         """
         elastic_targets = [t for t in self.targets if t.name in ELASTIC_MEASURES]
-        fitted = [*(self.tied or self.elastic_keys)]
+        fitted = _fitted(self.tied, self.free)
         if elastic:
             return elastic_targets, fitted
         others = [t for t in self.targets if t not in elastic_targets or self.tied]
@@ -179,6 +179,11 @@ class Calibration:
     def measure(self, target: Target, found: Mapping[Run, Table]) -> float | None:
         """Return a measure of a packing from its results by test and pressure; None if missing."""
         return measures_of.measured(target.name, self.tests(target), found)
+
+
+def _fitted(tied: Sequence[str], free: Mapping[str, object]) -> list[str]:
+    """Free keys that the elastic targets determine."""
+    return [*tied] or [key for key in free if _is_elastic(key)]
 
 
 def _last(key: str) -> str:
@@ -209,7 +214,7 @@ def read(path: Path | str) -> Calibration:
         base=path.parent,
         targets=targets,
         free=free,
-        ratios=[*_ratios(ratios, free)],
+        ratios=[*_ratios(ratios, free, _fitted(about["tied"], free))],
         screen=_runs(content, "screen", (1,)),
         verify=_runs(content, "verify", (11, 12, 13, 14, 15)),
         **about,
@@ -223,20 +228,28 @@ def _targets(wanted: Table) -> Iterator[Target]:
         if name not in AT_PRESSURE:
             yield target_of(name, entry)
             continue
-        for text, one in require_table(f"calibration [target] {name}", entry).items():
-            pressure = _pressure(f"[target] {name}", text)
-            yield replace(
-                target_of(measures_of.name_at(AT_PRESSURE[name], pressure), one), pressure=pressure
-            )
+        label = f"calibration [target] {name}"
+        peaks = require_table(label, entry)
+        _require(f"[target] {name}", peaks, bool(peaks), "a table with entries")
+        known: set[str] = set()
+        for text, one in peaks.items():
+            pressure = _pressure(f"[target] {name}", text, one)
+            found = measures_of.name_at(AT_PRESSURE[name], pressure)
+            _require(f"[target] {name}", text, found not in known, "a pressure that differs")
+            known.add(found)
+            yield replace(target_of(found, one), pressure=pressure)
 
 
-def _pressure(label: str, text: str) -> float:
+def _pressure(label: str, text: str, entry: object) -> float:
     """Return the confining pressure [Pa] that is a key of a table."""
     try:
         number = float(text)
     except ValueError:
         number = math.nan
     _require(label, text, number >= 0.0 and math.isfinite(number), "a table by pressures in Pa")
+    # TOML reads a point in a key without quotes as that of a table
+    whole = not isinstance(entry, Mapping) or "value" in entry
+    _require(label, text, whole, "given a value; a pressure with a point stands in quotes")
     return number
 
 
@@ -311,12 +324,17 @@ def target_of(name: str, entry: object) -> Target:
     return Target(name, **numbers)
 
 
-def _ratios(entries: Sequence[Table], free: Mapping[str, object]) -> Iterator[Ratio]:
+def _ratios(
+    entries: Sequence[Table], free: Mapping[str, object], fitted: Sequence[str]
+) -> Iterator[Ratio]:
+    """Return the bounds of quotients of keys that the search changes."""
     for entry in entries:
         for key in entry:
             require_known("calibration [[ratio]] key", key, ("of", "to", "bounds"))
         for key in ("of", "to"):
             require_known(f"calibration [[ratio]] {key}", entry.get(key), list(free))
+            searched = entry[key] not in fitted
+            _require(f"[[ratio]] {key}", entry[key], searched, "a key that the search changes")
         yield Ratio(entry["of"], entry["to"], _bounds("[[ratio]] bounds", entry.get("bounds")))
 
 

@@ -70,7 +70,7 @@ class Evaluation:
     """Measures of one set of free keys."""
 
     round: int
-    stage: str  #: elastic, screen or verify
+    stage: str  #: elastic, tied, screen or verify
     values: Values
     measures: Measures
     targets: dict[str, float]  #: what the measures were compared with

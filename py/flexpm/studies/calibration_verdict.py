@@ -233,11 +233,9 @@ def judge(
         found = slopes(tried, keys, targets)
         left |= left_open(found, keys, free, [*targets])
         rows = zip(targets, found.tolist(), strict=True)
-        slope |= {
-            aim.name: dict(zip(keys, row, strict=True))
-            for aim, row in rows
-            if len(_with_measure(tried, aim)) > 1
-        }
+        for aim, row in rows:  # both searches may have it
+            if len(_with_measure(tried, aim)) > 1:
+                slope.setdefault(aim.name, {}).update(zip(keys, row, strict=True))
         losses |= {aim.name: text for aim in targets if (text := _loss(tried, aim))}
     missed = [aim for aim in aims if not is_met(aim, best.mean(aim.name))]
     told = advice(missed, best, slope, free, used_up=used_up, losses=losses)

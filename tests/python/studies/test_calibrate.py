@@ -20,8 +20,10 @@ from refusals import refusal
 from flexpm import materials
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
+from flexpm.materials.keys import UNITS
 from flexpm.materials.mixing import value_of
 from flexpm.studies import calibration_problem, calibration_search, jobs
+from flexpm.studies.calibration_losses import loss
 from flexpm.studies.calibration_report import picture, table_rows, unit_of, write_preset
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -67,6 +69,17 @@ def plan_of(folder: Path, text: str = GOOD) -> calibration_problem.Calibration:
         ("[target]", '[target]\npeaks = { "ten" = 3e8 }', "must be a table by pressures in Pa"),
         ("[target]", '[target]\npeaks = { "-1" = 3e8 }', "must be a table by pressures in Pa"),
         ("[target]", "[target]\npeaks = { 1e7 = -3e8 }", "must be > 0"),
+        ("[target]", "[target]\npeaks = {}", "must be a table with entries"),
+        (
+            "[target]",
+            "[target]\npeaks = { 1e7 = 3e8, 10e6 = 2e8 }",
+            "must be a pressure that differs",
+        ),
+        (
+            "[target]",
+            "[target]\npeaks = { 12.5e6 = 3e8 }",
+            "a pressure with a point stands in quotes",
+        ),
         ("rounds = 2", 'tied = ["cohesion"]', "tied = 'cohesion', unknown"),
     ],
 )
@@ -74,17 +87,20 @@ def test_wrong_files_are_refused(tmp_path, old, new, says):
     assert says in refusal("^[^\n]*$", plan_of, tmp_path, GOOD.replace(old, new))
 
 
-@pytest.mark.parametrize("model", ["flexible", "rigid"])
-def test_the_papers_granite_can_be_calibrated(model):
-    plan = calibration_problem.read(ROOT / f"scripts/studies/augig_{model}.toml")
+@pytest.mark.parametrize(
+    ("name", "model"), [("flexible", "flexible"), ("stiff", "flexible"), ("rigid", "rigid")]
+)
+def test_the_papers_granite_can_be_calibrated(name, model):
+    plan = calibration_problem.read(ROOT / f"scripts/studies/augig_{name}.toml")
     assert plan.model == model
-    law = materials.load(plan.material_file, plan.model).law(plan.model)
+    start = materials.load(plan.material_file, plan.model)
+    law = {key: value_of(start, key, plan.model) for key in UNITS}
     assert all(low <= law[key] <= high for key, (low, high) in plan.free.items())
     for ratio in plan.ratios:
         assert ratio.bounds[0] <= law[ratio.of] / law[ratio.to] <= ratio.bounds[1]
-    # the elastic solve, the disc, and each confinement of the envelope
+    # the elastic solve, the disc, each confinement of the envelope, and tension of stiff grains
     tests = {test for target in plan.targets for test in plan.tests(target)}
-    assert len(tests) == 2 + len(plan.confinements)
+    assert len(tests) == 2 + len(plan.confinements) + (name == "stiff")
     assert len(plan.verify.disc_seeds) > len(plan.verify.seeds)
 
 
@@ -150,6 +166,17 @@ def test_crack_thresholds_are_targets_as_parts_of_the_strength(tmp_path):
         ("uniaxial", 0.0),
         ("tension", 0.0),
     }
+
+
+def test_a_run_that_ends_well_without_a_measure_names_its_key(tmp_path):
+    plan = plan_of(tmp_path, GOOD.replace("[target]", "[target]\ncrack_damage = 0.75"))
+    ended = {
+        1: {("uniaxial", 0.0): {"result": {"status": "ok", "peak_stress": 1e8, "grains": 180}}}
+    }
+    assert loss(plan, plan.targets[0], ended, [1]) == (
+        "uniaxial has no crack_damage_stress in 1 of 1 runs of 180 grains; see null_reasons in "
+        "result.json of the runs"
+    )
 
 
 class MadeUp:
@@ -267,6 +294,22 @@ def test_tied_keys_meet_the_elastic_targets_of_each_set_of_the_search(tmp_path, 
 )
 def test_keys_that_cannot_be_tied_are_refused(tmp_path, tied, says):
     refusal(says, plan_of, tmp_path, TIED.replace('["young", "poisson"]', tied))
+
+
+def test_a_tied_key_at_its_bound_is_named(tmp_path, monkeypatch):
+    monkeypatch.setattr(calibration_search, "Pool", Compliant)
+    text = TIED.replace("poisson = [0.05, 0.4]", "poisson = [0.05, 0.2]")
+    start = {"young": 28e9, "poisson": 0.18, "normal_stiffness": 1.8e14}
+    strengths = {"tensile_strength": 8.5e6, "cohesion": 30e6}
+    found = calibration_search.run(plan_of(tmp_path, text), tmp_path, start=start | strengths)
+    assert not found.met["poissons_ratio"]
+    advice = next(line for line in found.verdict.advice if line.startswith("poissons_ratio"))
+    assert "poisson = 0.2 is at its upper bound 0.2; widen [free] poisson" in advice
+
+
+def test_a_ratio_of_a_tied_key_is_refused(tmp_path):
+    ratio = '[[ratio]]\nof = "young"\nto = "normal_stiffness"\nbounds = [1e-4, 2e-4]\n'
+    refusal("of = 'young', must be a key that the search changes", plan_of, tmp_path, TIED + ratio)
 
 
 def test_tied_keys_leave_a_key_to_the_search(tmp_path):
