@@ -64,7 +64,8 @@ FEATURES = {
         "strengths of single contacts",
         2,
         ("Specimen.with_strengths", "Specimen.with_weibull_strengths"),
-        "leave them out or take a 2D specimen; minerals of different strength are available",
+        "leave them out or take a 2D specimen; minerals of different strength, and a material with "
+        "weibull, are available",
     ),
     "holes": Feature(
         "holes in 2D shapes",

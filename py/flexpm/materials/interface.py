@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from ..errors import InputError
 from ..files import Table
 from ..require import Bounds, quoted, require_known, require_number, require_table
-from .keys import ENERGY_KEYS
+from .keys import ENERGY_KEYS, scaled
 from .keys import checked as checked_value
 
 #: Keys of a contact's law that an elastic set has.
@@ -94,6 +94,10 @@ class Interface:
             )
         factors = require_table(f"{where} factor", values.pop("factor", {}))
         return cls((pair[0], pair[1]), values, factors)
+
+    def scaled(self, ratio: float) -> Interface:
+        """Return the interface of grains whose diameters are multiplied by a ratio [-]."""
+        return dataclasses.replace(self, values=scaled(self.values, ratio))
 
     def law_of(self, mixed: Mapping[str, object]) -> Table:
         """Return values of the contact's law that differ from the rule of mixing.

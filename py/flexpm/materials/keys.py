@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+from ..files import Table
 from ..require import Bounds, require_known, require_number
 
 #: Unit of each key; None marks the keys that take one of a few words.
@@ -19,11 +22,14 @@ UNITS: dict[str, str | None] = {
     "shear_fracture_energy": "N/m",
     "softening": None,
     "plane": None,
+    "weibull": "-",
 }
 CHOICES = {"softening": ("bilinear", "brittle"), "plane": ("stress", "strain")}
 ELASTIC_KEYS = ("young", "poisson", "normal_stiffness", "shear_ratio")
 COMMON_KEYS = tuple(key for key in UNITS if key not in ELASTIC_KEYS)
 ENERGY_KEYS = ("tensile_fracture_energy", "shear_fracture_energy")
+#: Keys that the rock has, and no mineral of its own.
+ROCK_KEYS = ("plane", "weibull")
 #: Elastic set that each model uses. YADE's own models bond the same discs as the rigid model.
 ELASTIC_SET = {
     "flexible": "flexible",
@@ -51,6 +57,8 @@ def _around(magnitude: float) -> Bounds:
 
 #: Range of energies [N/m]; those of brittle softening follow from squares.
 _ENERGY = Bounds(above=0.0, at_least=1e-40, at_most=1e40)
+#: Range of Weibull's modulus: below 1 the factors have no density at 0, above 1e6 no scatter.
+MODULUS = Bounds(at_least=1.0, at_most=1e6)
 #: Ranges of the keys: 1e-12 to 1e12 times a rock's, within which all sums are numbers.
 _BOUNDS = {
     "young": _around(1e10),
@@ -63,6 +71,7 @@ _BOUNDS = {
     "friction": Bounds(at_least=0.0, at_most=1e12),
     "tensile_fracture_energy": _ENERGY,
     "shear_fracture_energy": _ENERGY,
+    "weibull": MODULUS,
 }
 
 #: Units of the keys of a joint; None marks true or false.
@@ -99,6 +108,22 @@ def checked(key: str, value: object, where: str = "") -> float | str:
         return str(value)
     unit = (UNITS[key] or "").removeprefix("-")
     return require_number(f"material {where}{key}", value, _BOUNDS[key], unit)
+
+
+def scaled(values: Mapping[str, object], ratio: float) -> Table:
+    """Return values by key for grains whose diameters are multiplied by a ratio [-].
+
+    A specimen whose lengths are all multiplied by s has the same stresses at the same strains if
+    stiffnesses of contacts per area are divided by s and fracture energies are multiplied by s:
+    openings and slips are then multiplied by s. Other values stay.
+    """
+    found: Table = dict(values)
+    for key in ENERGY_KEYS:
+        if isinstance(found.get(key), int | float):
+            found[key] *= ratio
+    if isinstance(found.get("normal_stiffness"), int | float):
+        found["normal_stiffness"] /= ratio
+    return found
 
 
 def is_used(key: str, model: str) -> bool:

@@ -16,7 +16,15 @@ from typing import TypedDict
 from ..errors import InputError
 from ..files import Table, load_toml
 from ..notebook import Shown
-from ..require import nearest, quoted, require_known, require_table, require_text
+from ..require import (
+    LENGTH,
+    nearest,
+    quoted,
+    require_known,
+    require_number,
+    require_table,
+    require_text,
+)
 from . import interface, joint, made_for, mineral
 from .interface import Interface
 from .joint import Joint
@@ -30,10 +38,13 @@ from .keys import (
     checked,
     elastic_set_name,
     is_used,
+    scaled,
 )
 from .made_for import MadeFor
 from .mineral import Mineral
 
+#: Keys that a material may leave out.
+_OPTIONAL = (*ENERGY_KEYS, "weibull")
 #: A fracture energy this close to the elastic energy [relative] counts as equal: brittle.
 ENERGY_TOLERANCE = 1e-12
 
@@ -109,6 +120,7 @@ class Material(Shown):
     softening: str = "bilinear"  #: bilinear or brittle
     density: float = 2650.0  #: [kg/m3], used by dynamic runs and by gravity
     plane: str = "stress"  #: plane stress or plane strain of the triangles
+    weibull: float | None = None  #: modulus of the scatter of the strengths of contacts [-]
     minerals: tuple[Mineral, ...] = ()  #: kinds of grains; none: all grains alike
     joints: tuple[Joint, ...] = ()  #: laws of contacts along cuts
     interfaces: tuple[Interface, ...] = ()  #: what contacts of pairs of minerals have of their own
@@ -117,7 +129,7 @@ class Material(Shown):
     def __post_init__(self) -> None:
         for key in COMMON_KEYS:
             value = getattr(self, key)
-            if value is not None or key not in ENERGY_KEYS:
+            if value is not None or key not in _OPTIONAL:
                 object.__setattr__(self, key, checked(key, value))
         if not self.elastic:
             raise InputError(
@@ -220,6 +232,52 @@ class Material(Shown):
         )
         changed.law(model)
         return changed
+
+    def at_grain_size(self, mean_diameter: float) -> Material:
+        """Return the material for grains of another mean diameter, by similarity.
+
+        It multiplies the normal stiffness of all elastic sets, minerals and interfaces by the mean
+        diameter of ``made_for`` over the new one, and their fracture energies by the inverse.
+        Strengths, elastic constants of the grains and density stay. A specimen with all lengths in
+        proportion to the grains then has the same elastic constants and the same stresses at the
+        same strains. With real masses, times are in proportion to the lengths, too; with gravity
+        nothing is similar. Laws of joints stay. A specimen of the same size has the same elastic
+        constants but for the scatter of packings, but its strength may change, since its size in
+        grains does.
+
+        Args:
+            mean_diameter: Mean diameter of the grains [m].
+
+        Raises:
+            InputError: for a diameter that is not above 0, or a material without the mean diameter
+                of its calibration.
+
+        Example:
+            >>> fine = flexpm.materials.load("augig-table7").at_grain_size(1.5e-3)
+            >>> fine.law()["normal_stiffness"], fine.made_for.mean_diameter
+            (360000000000000.0, 0.0015)
+        """
+        where = "Material.at_grain_size"
+        diameter = require_number(f"{where}: mean_diameter", mean_diameter, LENGTH, "m")
+        if self.made_for is None or self.made_for.mean_diameter is None:
+            raise InputError(
+                f"{where}: material {quoted(self.name)} has no mean grain diameter of its "
+                "calibration, must have one; give made_for = {dimension, model, mean_diameter} in "
+                "its file"
+            )
+        ratio = diameter / self.made_for.mean_diameter
+        elastic = {
+            name: ElasticSet(**scaled(vars(chosen), ratio)) for name, chosen in self.elastic.items()
+        }
+        energies = {key: getattr(self, key) for key in ENERGY_KEYS}
+        return dataclasses.replace(
+            self,
+            elastic=elastic,
+            minerals=tuple(one.scaled(ratio) for one in self.minerals),
+            interfaces=tuple(one.scaled(ratio) for one in self.interfaces),
+            made_for=dataclasses.replace(self.made_for, mean_diameter=diameter),
+            **scaled(energies, ratio),
+        )
 
     def law(self, model: str = "flexible") -> Law:
         """Return the effective parameters of `model` as a flat dictionary, keys as in TOML files.

@@ -18,7 +18,7 @@ from ..require import (
     require_number,
     require_table,
 )
-from .keys import COMMON_KEYS, ELASTIC_KEYS
+from .keys import COMMON_KEYS, ELASTIC_KEYS, ROCK_KEYS, scaled
 
 #: Fractions are to sum up to 1 within this.
 _SUM_TOLERANCE = 1e-6
@@ -26,7 +26,7 @@ _SUM_TOLERANCE = 1e-6
 MOST = 100
 #: How keys of ``--set`` begin that are of no mineral.
 _RESERVED = ("joint.", "interface.")
-_KEYS = tuple(key for key in COMMON_KEYS if key != "plane")
+_KEYS = tuple(key for key in COMMON_KEYS if key not in ROCK_KEYS)
 
 
 @dataclass(frozen=True)
@@ -67,6 +67,17 @@ class Mineral:
                 key: require_table(f"{where} [elastic.{key}]", own) for key, own in sets.items()
             }
         return cls(name, fraction, changes)
+
+    def scaled(self, ratio: float) -> Mineral:
+        """Return the mineral of grains whose diameters are multiplied by a ratio [-]."""
+        changes = scaled(self.changes, ratio)
+        sets = changes.get("elastic")
+        if isinstance(sets, Mapping):
+            changes["elastic"] = {
+                name: scaled(own, ratio) if isinstance(own, Mapping) else own
+                for name, own in sets.items()
+            }
+        return dataclasses.replace(self, changes=changes)
 
 
 def checked(minerals: object) -> tuple[Mineral, ...]:

@@ -27,6 +27,8 @@ from .keys import ELASTIC_KEYS, ELASTIC_SET, ENERGY_KEYS, elastic_set_name, is_u
 from .material import ENERGY_TOLERANCE, ElasticSet, Law, Material
 from .mineral import Mineral
 
+#: Models whose contacts can have strengths of their own.
+SCATTER_MODELS = ("flexible", "rigid")
 #: Models that can have grains of several minerals; inner particles are of one rock.
 MODELS = tuple(model for model in ELASTIC_SET if elastic_set_name(model) != "inner")
 
@@ -59,11 +61,20 @@ def pair_materials(rock: Material, model: str) -> list[Material]:
 def description(rock: Material, model: str = "flexible") -> Table:
     """Return ``rock.law`` of `model`; if grains differ, also laws of minerals, by `minerals`.
 
+    The modulus `weibull` of the scatter of strengths is there only if the rock has it.
+
     Raises:
         InputError: as ``law`` for any mineral or pair of minerals, or if `model` cannot have
-            several minerals.
+            several minerals, or strengths that scatter.
     """
     values: Table = {**rock.law(model)}
+    if rock.weibull is not None:
+        if model not in SCATTER_MODELS:
+            raise InputError(
+                f"material weibull = {rock.weibull:g}, must not be given for model {model}; leave "
+                f"it out, or use one of the models {', '.join(SCATTER_MODELS)}"
+            )
+        values["weibull"] = rock.weibull
     if rock.joints:
         values["joints"] = rock.joint_laws(model)
     if not rock.minerals:
@@ -120,7 +131,7 @@ def value_of(rock: Material, label: str, model: str) -> object:
         InputError: for a mineral that the rock does not have, and as ``pair_materials``.
     """
     if not interface.is_key(label):
-        return {**rock.law(model)}.get(label)
+        return {**rock.law(model), "weibull": rock.weibull}.get(label)
     names = [kind.name for kind in rock.minerals]
     pair, key, is_factor = interface.read_key(label, names)
     if is_factor:

@@ -22,6 +22,7 @@ from ..materials.mixing import description, mineral_materials, pair_materials
 from ..require import require_one_of
 from ..specimens import inner_particles, mineral_map
 from ..specimens.specimen import Specimen
+from ..specimens.strength_map import factors_of
 from .options import INNER_MODELS, MESHES, POINTS
 
 #: Keys of a law that a GrainMat takes in another form, or not at all.
@@ -117,8 +118,9 @@ def _tell_minerals(
 def _tell_joints(cells: AssemblyInput, grains: Grains, chosen: Material) -> list[wrapper.GrainMat]:
     """Set strengths and joints of the contacts; returns the materials of the joints."""
     specimen = grains.specimen
-    if specimen.strengths is not None:
-        cells.edge_strengths = np.ascontiguousarray(specimen.strengths)
+    factors = factors_of(specimen, chosen)
+    if factors is not None:
+        cells.edge_strengths = np.ascontiguousarray(factors)
     if specimen.edge_joints is None:
         return []
     laws = {law["name"]: law for law in chosen.joint_laws(grains.model)}

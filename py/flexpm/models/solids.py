@@ -17,6 +17,7 @@ from ..materials.mixing import description, mineral_materials, pair_materials
 from ..specimens import mineral_map
 from ..specimens.kernel_input import call
 from ..specimens.space.specimen import SolidSpecimen
+from ..specimens.strength_map import factors_of
 from .assembly import grain_material
 from .options import SOLID_MODELS, require_model
 
@@ -37,6 +38,7 @@ def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.
     require_model(f"build: model for a {specimen.kind}", model, SOLID_MODELS, solid=True)
     minerals = _minerals(specimen, chosen, model)
     pairs = [] if minerals is None else pair_materials(chosen, model)
+    factors = factors_of(specimen, chosen)
     solver: wrapper.GrainSolver = wrapper.SolidSolver()
     try:
         solver.assembleSolid(
@@ -46,6 +48,7 @@ def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.
             [grain_material(pair, model) for pair in pairs],
             [] if minerals is None else minerals.tolist(),
             rigid=model == "rigid",
+            strengths=[] if factors is None else factors.tolist(),
         )
     except (ValueError, RuntimeError) as error:
         raise InputError(f"build: {error}") from error

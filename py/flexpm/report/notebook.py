@@ -86,6 +86,8 @@ def _of_material(material: Material) -> str:
         for key in UNITS
         if any(law.get(key) is not None for law in laws.values())
     ]
+    if material.weibull is not None:
+        rows.append(("Weibull modulus", *[f"{material.weibull:g}"] * len(laws)))
     kinds = [(f"mineral {kind.name}", f"{100.0 * kind.fraction:g} %") for kind in material.minerals]
     picture = _picture(lambda path: _draw_law(path, next(iter(laws.values())))) if laws else ""
     title = f"Material {name_of(material.name)}"

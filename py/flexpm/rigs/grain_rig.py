@@ -29,6 +29,7 @@ from ..runs.loading_rate import RISE_TRANSITS, SLOWEST_WAIT, Scales, Schedule
 from ..runs.runner import Runner
 from .readings import Balance, Readings, balance_of, curve_of
 from .rig import BOTTOM, LEFT, RIGHT, TOP, TestRig
+from .weakest import scattered_strength
 
 #: Rows of the record while a wave crosses the specimen, at least; the strain grows by no more than
 #: the rate constant's part of the reference strain meanwhile.
@@ -51,6 +52,8 @@ class GrainRig(TestRig):
     """Record and loading rate of grains; the type of rig decides how their ends are fixed."""
 
     built: Model
+    #: Whether its scales follow from the contact point that softens first, by its own strength.
+    _finds_weakest = False
 
     def __init__(
         self, built: Model, *, tension: bool = False, runner: Runner | None = None
@@ -126,13 +129,17 @@ class GrainRig(TestRig):
             InputError: if nothing resists the loading.
         """
         try:
-            return Scales(**self._recorder.scales())
+            found = Scales(**self._recorder.scales())
         except ValueError as error:
             raise InputError(f"load: {error}") from None
         except RuntimeError as error:  # a piece of the specimen is free to move
             raise InputError(
                 f"load: {error}, or add parts that the loading does not lift"
             ) from None
+        if self._finds_weakest:
+            return found
+        lowest = scattered_strength(self.built, pulled=self.tension or self.disc)
+        return found if lowest is None else replace(found, lowest_strength=lowest)
 
     def _new_frame(self) -> wrapper.TestFrame:
         """Where the record's load and strains come from."""

@@ -56,6 +56,7 @@ class PartRig(PartColumns, PartExcavation):
     """
 
     built: Model
+    _finds_weakest = True
     #: What makes such a rig, and whether of solids.
     _call, _of_solids = "PartRig", False
     #: The class of a rig of a 3D specimen, which says so itself.

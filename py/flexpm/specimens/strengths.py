@@ -10,11 +10,13 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..errors import InputError
-from ..require import Bounds, require_number
+from ..materials.keys import MODULUS
+from ..require import require_number
 from .checks import require_seed
 
-#: Keeps the draw of strengths apart from other draws with the same seed.
+#: Keep the draws of strengths apart from each other and from other draws with the same seed.
 _WEIBULL_STREAM = 38
+_MATERIAL_STREAM = 138
 
 
 def checked(factors: Sequence[float] | FloatArray, count: int) -> FloatArray:
@@ -34,6 +36,15 @@ def checked(factors: Sequence[float] | FloatArray, count: int) -> FloatArray:
 def weibull(modulus: float, seed: int, count: int) -> FloatArray:
     """Draw factors [-] that follow Weibull's distribution of a modulus [-], with the mean 1."""
     where = "Specimen.with_weibull_strengths"
-    shape = require_number(f"{where}: modulus", modulus, Bounds(at_least=1.0, at_most=1e6))
-    draw = np.random.default_rng([_WEIBULL_STREAM, require_seed(where, seed)])
-    return draw.weibull(shape, count) / math.gamma(1.0 + 1.0 / shape)
+    shape = require_number(f"{where}: modulus", modulus, MODULUS)
+    return _drawn(_WEIBULL_STREAM, shape, require_seed(where, seed), count)
+
+
+def of_material(modulus: float, seed: int, count: int) -> FloatArray:
+    """Draw the factors [-] of a material with a modulus [-], apart from those of `weibull`."""
+    return _drawn(_MATERIAL_STREAM, modulus, seed, count)
+
+
+def _drawn(stream: int, modulus: float, seed: int, count: int) -> FloatArray:
+    draw = np.random.default_rng([stream, seed])
+    return draw.weibull(modulus, count) / math.gamma(1.0 + 1.0 / modulus)

@@ -100,6 +100,10 @@ void check_input(const Polyhedra& cells, const SolidInput& input)
                 "must be below " + std::to_string(kinds));
         }
     }
+    if (!input.strength.empty() && static_cast<int>(input.strength.size()) != cells.contacts) {
+        refuse("make_solid: factors of strengths", static_cast<double>(input.strength.size()), "",
+            "must be those of " + std::to_string(cells.contacts) + " contacts");
+    }
 }
 
 void size_grains(Grains& grains, int values)
@@ -310,6 +314,16 @@ void add_blocks(FaceContacts& c, const FaceGroup& group, int contacts)
     c.shares.resize(c.block_shares.back(), 0.0);
 }
 
+/// Index of the law of a contact; strengths of its own make it a law of its own.
+int law_of_face(Building& b, const PolyhedronFace& on, int face)
+{
+    const int pair = b.state.grains.law_index(on.cell_a, on.cell_b);
+    if (b.input.strength.empty()) return pair;
+    auto& laws = b.state.contacts.laws;
+    laws.push_back(make_law(scaled_strength(b.input.contacts[pair], b.input.strength[face])));
+    return static_cast<int>(laws.size()) - 1;
+}
+
 void add_contacts(Building& b)
 {
     FaceContacts& c = b.state.contacts;
@@ -324,7 +338,7 @@ void add_contacts(Building& b)
     for (int f = 0; f < c.count; ++f) {
         const PolyhedronFace& on = b.cells.faces[f];
         c.pairs.push_back({ on.cell_a, on.cell_b });
-        c.law.push_back(b.state.grains.law_index(on.cell_a, on.cell_b));
+        c.law.push_back(law_of_face(b, on, f));
         faces.push_back(read_face(b, f));
         keys.push_back(
             curve.number(0.5 * (b.cells.centres[on.cell_a] + b.cells.centres[on.cell_b])));

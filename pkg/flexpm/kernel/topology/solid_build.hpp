@@ -16,6 +16,8 @@ struct SolidInput {
     std::vector<int> kind;  ///< of each cell; empty: all are of the first
     FacePointRule rule = FacePointRule::corners_and_inner;
     bool rigid = false;
+    /// Of each contact: factor of its strengths, see scaled_strength(); empty: all 1.
+    std::vector<double> strength {};
 };
 
 /// Specimen at rest, with real masses and the plan of a step. Grain g is cell g; blocks follow a

@@ -100,12 +100,19 @@ public:
 	bool measured() const;
 
 	void assemble(const flexpm_bindings::AssemblyInput& input, py::list materials, py::list pairs, py::list joints);
-	void assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list materials, py::list pairs, vector<int> minerals, bool rigid);
-	void addToScene();
-	void scaleMasses();
-	Real useRealMasses();
-	void mirrorBodies();
-	void resetEnergyBalance();
+	void assembleSolid(
+	        const flexpm::Polyhedra& cells,
+	        const flexpm::Solid&     outline,
+	        py::list                 materials,
+	        py::list                 pairs,
+	        vector<int>              minerals,
+	        bool                     rigid,
+	        vector<Real>             strengths);
+	void      addToScene();
+	void      scaleMasses();
+	Real      useRealMasses();
+	void      mirrorBodies();
+	void      resetEnergyBalance();
 	py::list  addSidePlates(int side, int pieces, bool bonded, Real friction, Real strip, bool seated);
 	int       addTouchingPlate(Vector3r normal, Real friction);
 	int       addPatchPlate(Vector3r place, Real length, Vector3r normal, Real friction, bool bonded, Real strip, bool seated);
@@ -183,8 +190,8 @@ public:
 		, /* ctor */
 		, .def("assemble", &GrainSolver::assemble, (py::arg("input"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("joints") = py::list()),
 			"Build the bonded, unloaded grains; flexpm.build calls it once. materials: material of each mineral; pairs: material of the contacts between minerals i and j of n, at index i n + j (empty: the material of i); joints: material of the contacts of each joint.")
-		.def("assembleSolid", &GrainSolver::assembleSolid, (py::arg("cells"), py::arg("outline"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("minerals") = vector<int>(), py::arg("rigid") = false),
-			"Build the bonded, unloaded grains; flexpm.build calls it once. materials: material of each mineral; pairs: material of the contacts between minerals i and j of n, at index i n + j; minerals: mineral of each cell.")
+		.def("assembleSolid", &GrainSolver::assembleSolid, (py::arg("cells"), py::arg("outline"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("minerals") = vector<int>(), py::arg("rigid") = false, py::arg("strengths") = vector<Real>()),
+			"Build the bonded, unloaded grains; flexpm.build calls it once. materials: material of each mineral; pairs: material of the contacts between minerals i and j of n, at index i n + j; minerals: mineral of each cell; strengths: factor of the strengths of each contact [-] (empty: all 1).")
 		.def("addToScene", After<&GrainSolver::requireGrains, &GrainSolver::addToScene>::call, "Make a body of each grain and an interaction of each bond.")
 		.def("scaleMasses", After<&GrainSolver::requireGrains, &GrainSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
 		.def("useRealMasses", After<&GrainSolver::requireGrains, &GrainSolver::useRealMasses>::call, "Use the real masses, and return the stable time step [s].")

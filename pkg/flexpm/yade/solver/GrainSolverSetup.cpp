@@ -144,7 +144,8 @@ void GrainSolver::insertContacts()
 	seenDestroyed = destroyedContacts();
 }
 
-void GrainSolver::assembleSolid(const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list minerals, py::list pairs, vector<int> kinds, bool rigid)
+void GrainSolver::assembleSolid(
+        const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list minerals, py::list pairs, vector<int> kinds, bool rigid, vector<Real> strengths)
 {
 	if (hasGrains()) flexpm::refuse(getClassName() + ": grains", grainCount(), "", "are assembled already; make another " + getClassName());
 	flexpm::SolidInput input;
@@ -153,9 +154,10 @@ void GrainSolver::assembleSolid(const flexpm::Polyhedra& cells, const flexpm::So
 		input.grains.push_back(elasticOf(static_cast<const GrainMat&>(*m)));
 	for (const auto& m : py::len(pairs) > 0 ? materialsOf(pairs) : ofGrains)
 		input.contacts.push_back(contactOf(static_cast<const GrainMat&>(*m)));
-	input.kind  = kinds;
-	input.rigid = rigid;
-	space       = flexpm::make_solid(cells, outline, input);
+	input.kind     = kinds;
+	input.rigid    = rigid;
+	input.strength = strengths;
+	space          = flexpm::make_solid(cells, outline, input);
 	keepMaterials(ofGrains);
 }
 
