@@ -115,7 +115,7 @@ def compare(
     with terminal.Progress(quiet) as progress:
         found = comparison.compare(
             test,
-            inputs.made(source, progress),
+            inputs.made(source, progress, specs),
             models,
             chosen,
             confinements=confinements,

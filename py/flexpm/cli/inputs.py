@@ -232,30 +232,40 @@ def made_plane(specimen: SpecimenSource, progress: terminal.Progress) -> Specime
     return cast("Specimen", found)
 
 
-def made(specimen: SpecimenSource, progress: terminal.Progress) -> AnySpecimen:
+def made(
+    specimen: SpecimenSource, progress: terminal.Progress, runs: Sequence[RunSpec] = ()
+) -> AnySpecimen:
     """Pack or load a specimen and cut it by its joints.
 
     Args:
         specimen: Where it comes from.
         progress: Shows how far a packing is.
+        runs: Runs of the specimen, whose materials may be of grains of another size.
     """
     load_yade()
     found = specimen.make(progress)
     if specimen.plain.diameters is None:  # those of a packing have been looked at
         tell_lengths(found.extent, (found.mean_diameter,))
+        for run in runs:
+            of_run = (run.material, run.model, found.mean_diameter)
+            for line in doubts.of_grain_size(*of_run, solid=run.is_solid):
+                _warn(line)
     if specimen.lines is not None or specimen.network is not None:
         for line in doubts.of_cuts({name: one.to_json() for name, one in found.told_cuts.items()}):
             _warn(line)
     return found
 
 
-def resumed(specimen: SpecimenSource, folder: Path, progress: terminal.Progress) -> AnySpecimen:
+def resumed(
+    specimen: SpecimenSource, folder: Path, progress: terminal.Progress, run: RunSpec
+) -> AnySpecimen:
     """Return the specimen of a run: the specimen in its folder, if a checkpoint there names it.
 
     Args:
         specimen: Source of the specimen otherwise.
         folder: Folder of the run.
         progress: Shows the progress of a packing.
+        run: The run.
     """
     load_yade()
     from ..runs.kept_packing import kept
@@ -266,7 +276,7 @@ def resumed(specimen: SpecimenSource, folder: Path, progress: terminal.Progress)
             return found
         if why:
             terminal.say(why)
-    return made(specimen, progress)
+    return made(specimen, progress, [run])
 
 
 #: Options that name a file of lines.

@@ -71,7 +71,11 @@ def run(test: str, out: Path, quiet: bool, discard_checkpoint: bool, **options: 
         return
     options |= {"quiet": quiet, "discard_checkpoint": discard_checkpoint}
     folder = inputs.locked_folder(out, "run")
-    _simulate(spec, chosen, lambda shown: inputs.resumed(source, folder, shown), folder, options)
+
+    def specimen(shown: terminal.Progress) -> AnySpecimen:
+        return inputs.resumed(source, folder, shown, spec)
+
+    _simulate(spec, chosen, specimen, folder, options)
 
 
 @click.command(short_help="Repeat a run from its result.json.")
@@ -144,7 +148,7 @@ def elastic(out: Path | None, **options: Any) -> None:
     chosen = inputs.material(options, source.plain.kind)
     spec = inputs.run_spec(ELASTIC, options, chosen, source)
     folder = None if out is None else inputs.locked_folder(out, "run")
-    _solve(spec, chosen, lambda shown: inputs.made(source, shown), folder, options["quiet"])
+    _solve(spec, chosen, lambda shown: inputs.made(source, shown, [spec]), folder, options["quiet"])
 
 
 def _repeat(

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from ..files import Table
 from ..kinds.registry import kind_of
 from ..kinds.test_kind import Stage
+from ..materials.grain_size import modulus_ratio
 from ..materials.interface import ENERGY_OF
 from ..materials.made_for import MadeFor, dimension_of
 from ..materials.material import default_name
@@ -61,6 +62,9 @@ LARGEST_ENERGY_ERROR = 0.01
 LARGEST_TAKEN = 0.1
 #: Ratio of a softening length to the length of the rock, or of the mixing rule, without a warning.
 LARGEST_SOFTENING_RATIO = 2.0
+#: Ratio of the mean diameter of grains to that of the calibration without a warning, or its inverse
+#: [-].
+LARGEST_SIZE_RATIO = 1.3
 #: Number of joints that one warning names.
 _NAMED_JOINTS = 5
 #: Relative difference from a set point above which a row misses the set point [-].
@@ -101,7 +105,7 @@ NO_PULSE = (
 
 
 def of_inputs(inputs: Table) -> list[str]:
-    """Warn of inputs that are probably in other units, or for another dimension or model.
+    """Warn of inputs that are probably in other units, or for another dimension, model or size.
 
     Warn also of damping of motion under gravity.
 
@@ -116,9 +120,14 @@ def of_inputs(inputs: Table) -> list[str]:
     lines = [line for where, values in tables for line in _of_values(where, values)]
     lines += of_softening(material)
     sizes = {name: specimen[name] for name in _SIZES if specimen.get(name) is not None}
-    lines += of_lengths(sizes, specimen.get("diameters") or ())
+    packed = specimen.get("diameters") or ()
+    odd = of_lengths(sizes, packed)
+    lines += odd
     solid = "thickness" not in specimen  # only 2D specimens have a thickness
     lines += of_material(material, inputs["model"], solid=solid)
+    if packed and not odd:  # grains in another unit are of another size
+        mean = 0.5 * sum(packed)
+        lines += of_grain_size(material, inputs["model"], mean, solid=solid)
     lines += of_weak_joints(inputs)
     damping = inputs.get("damping")  # 0.7 in results without this option
     return lines + of_gravity(inputs.get("gravity") or 0.0, 0.7 if damping is None else damping)
@@ -231,6 +240,31 @@ def of_material(material: Table, model: str, *, solid: bool) -> list[str]:
         f"material = {name_of(name)}, was calibrated in {given['dimension']} for model "
         f"{given['model']}, the run is {dimension_of(solid=solid)} with model {model}: strength "
         f"and elastic constants may differ much from the rock; {remedy}calibrate for this run"
+    ]
+
+
+def of_grain_size(material: Table, model: str, mean_diameter: float, *, solid: bool) -> list[str]:
+    """Warn of grains much larger or smaller than those of the material's calibration.
+
+    Args:
+        material: Material as in result.json.
+        model: Model of the run.
+        mean_diameter: Mean diameter of the grains [m].
+        solid: Whether the specimen is 3D.
+    """
+    calibrated = (material.get("made_for") or {}).get("mean_diameter")
+    if calibrated is None:
+        return []
+    ratio = mean_diameter / calibrated
+    if 1.0 / LARGEST_SIZE_RATIO <= ratio <= LARGEST_SIZE_RATIO:
+        return []
+    change = modulus_ratio(material, model, mean_diameter, calibrated, solid=solid)
+    return [
+        f"mean diameter of the grains = {mean_diameter:.3g} m, is {ratio:.3g} times the "
+        f"{calibrated:.3g} m of the calibration of {name_of(material['name'])} (limit "
+        f"{LARGEST_SIZE_RATIO:g}): Young's modulus is about {change:.3g} times as large, and "
+        f"strengths may differ; take Material.at_grain_size({mean_diameter:.3g}) or calibrate for "
+        "these grains"
     ]
 
 

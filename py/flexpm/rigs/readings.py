@@ -28,6 +28,7 @@ from ..results import doubts, measures
 from ..results.record import COLUMNS, Curve
 from ..runs.likely import BRITTLE, Softening
 from ..runs.loading_rate import WAITING_MODELS, Loading, Scales, Schedule, schedule
+from ..runs.run_spec import described
 
 
 @dataclass(frozen=True)
@@ -185,6 +186,11 @@ class RigReadings(ABC):
         lines = [doubts.of_divergence(yade.O.iter, self._stop_reason)] if self.diverged else []
         plane = {} if self.solid else {"thickness": specimen.thickness}
         lines += doubts.of_lengths({**specimen.extent, **plane}, (specimen.mean_diameter,))
+        if specimen.spec.diameters is None:  # inputs tell those of a packing
+            material = described(self.built.material, self.built.name)
+            lines += doubts.of_grain_size(
+                material, self.built.name, specimen.mean_diameter, solid=self.solid
+            )
         return lines + doubts.of_result("", error, mismatch, None)
 
     @property
