@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -86,7 +88,7 @@ def kirsch(across: float, along: float) -> np.ndarray:
 
 def hard_rock() -> flexpm.Material:
     """Rock whose contacts are stiff, so that the grains are one body, and do not break."""
-    rock = flexpm.materials.load("augig-table7")
+    rock = dataclasses.replace(flexpm.materials.load("augig-table7"), made_for=None)
     stiff = 100.0 * rock.law("flexible")["normal_stiffness"]
     return rock.with_set(
         normal_stiffness=stiff,

@@ -47,7 +47,9 @@ def test_a_pulse_has_the_speed_of_the_continuum(slab, model, wave):
     scatter = 0.015 if (model, wave) == ("rigid", "s") else 0.01
     assert speeds.pop(wave) == pytest.approx(continuum(slab, model, wave), rel=scatter)
     assert [*speeds.values()] == [None]
-    assert (result.status, result.failed, result.warnings) == ("ok", False, [])
+    (warning,) = result.warnings
+    assert warning.startswith("mean diameter of the grains = 0.00075 m")  # finer than calibrated
+    assert (result.status, result.failed) == ("ok", False)
     assert result.peak_stress is None and result.youngs_modulus is None
     assert result.tensile_cracks == result.shear_cracks == 0
     # nothing is lost, and nothing pushes
@@ -89,7 +91,7 @@ def test_a_pulse_that_has_not_passed_has_no_speed(slab):
     material = flexpm.materials.load("augig-table2-bilinear").with_set({"joint.cut.open": True})
     result = flexpm.run("sonic", cut, material, model="rigid", wave="s")
     assert result.vs is None and result.status == "ok"
-    assert "scattered the pulse" in result.warnings[0]
+    assert any("scattered the pulse" in line for line in result.warnings)
 
 
 def spec_of(specimen: SpecimenSpec, **options: object) -> RunSpec:
