@@ -51,8 +51,8 @@ def rig(
         leaves: Output of the test, by these names:
 
             - ``out``: folder of the files, which grow during the run. If the same script is started
-              again, it resumes from there and reaches the same bits. None, the default, writes no
-              files.
+              again with the same calls, it resumes from there and reaches the same bits. None, the
+              default, writes no files, and a script that is started again begins anew.
             - ``frames``, ``film``: intermediate states and a film of them, as for ``flexpm.run``.
             - ``report``: also write report.html at the end. Default: True.
             - ``checkpoint_interval``: wall time between two checkpoints [s], > 0.

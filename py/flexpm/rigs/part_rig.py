@@ -42,7 +42,7 @@ class PartRig(PartColumns, PartExcavation):
 
     Add plates with `support` and `platen`, fix nodes with `hold`, and add gauges with `gauge`.
     Select the parts that load the specimen with `drive`, and then call `load` or `strain_to`. In a
-    run that resumes from a checkpoint the same calls find the parts that they have added before.
+    scene that was loaded, the same calls find the parts that they have added before.
     Positions and directions of a 3D specimen have three components.
 
     Example:

@@ -65,8 +65,8 @@ _MOST_STEPS = 10**10
 class Loading:
     """Rate, start and end of the loading of a specimen.
 
-    A loading ends when the stress has dropped to `stop_ratio` of its peak, or at `max_strain`. The
-    default `max_strain` is 8 times the strain of the reference strength; between parts it is at
+    A loading ends when the deviator (axial stress minus least confining pressure) has dropped to
+    `stop_ratio` of its peak, or at `max_strain`. The default `max_strain` is 8 times the strain of the reference strength; between parts it is at
     least 8 times the compression at which a specimen of that size fails as a unit. If the load
     still rises there, the status is ``no_peak``.
 
