@@ -66,9 +66,9 @@ class Loading:
     """Rate, start and end of the loading of a specimen.
 
     A loading ends when the deviator (axial stress minus least confining pressure) has dropped to
-    `stop_ratio` of its peak, or at `max_strain`. The default `max_strain` is 8 times the strain of the reference strength; between parts it is at
-    least 8 times the compression at which a specimen of that size fails as a unit. If the load
-    still rises there, the status is ``no_peak``.
+    `stop_ratio` of its peak, or at `max_strain`. The default `max_strain` is 8 times the strain of
+    the reference strength; between parts it is at least 8 times the compression at which a specimen
+    of that size fails as a unit. If the load still rises there, the status is ``no_peak``.
 
     Example:
         >>> loading = flexpm.Loading(rate=0.5, max_strain=2e-3)
@@ -78,7 +78,8 @@ class Loading:
 
     rate: float = 1.0  #: factor on the default loading rate [-]
     kind: str = "constant"  #: one of ``LOADINGS``; others than constant are for grains
-    static: bool = False  #: begin at the elastic solution; for deformable grains between their ends
+    #: begin at the elastic solution: between ends, with deformable grains, in 3D also rigid grains
+    static: bool = False
     #: axial strain at which the test ends [-]; between parts the displacement over the `length` of
     #: `drive`: without a length the displacement itself [m], or an angle [rad]; None: the default,
     #: and under a confining pressure also a plateau of the deviator ends it
