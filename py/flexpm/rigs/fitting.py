@@ -52,7 +52,7 @@ def rig(
 
             - ``out``: folder of the files, which grow during the run. If the same script is started
               again with the same calls, it resumes from there and reaches the same bits. None, the
-              default, writes no files, and a script that is started again begins anew.
+              default, writes no files; the script then always starts from the beginning.
             - ``frames``, ``film``: intermediate states and a film of them, as for ``flexpm.run``.
             - ``report``: also write report.html at the end. Default: True.
             - ``checkpoint_interval``: wall time between two checkpoints [s], > 0.
