@@ -13,8 +13,8 @@ import traceback
 from dataclasses import dataclass
 from pathlib import Path
 
-#: Longest time of a snippet [s].
-_PATIENCE = 60.0
+#: Time after which a snippet hangs [s]; on a busy machine, too.
+_PATIENCE = 600.0
 
 _PREPARE = """
 import copy, inspect, pickle, re

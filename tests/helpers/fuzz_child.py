@@ -86,9 +86,10 @@ class Child:
         """Wait for an answer or the end of a process, as long as it may take."""
         selector = selectors.DefaultSelector()
         selector.register(process.stdout, selectors.EVENT_READ)
-        first, begin = used(process.pid), time.monotonic()
+        first, begin = used(process.pid), time.monotonic()  # noqa: TID251
         while not selector.select(1.0):
-            if used(process.pid) - first > LONGEST or time.monotonic() - begin > HUNG:
+            past = time.monotonic() - begin  # noqa: TID251
+            if used(process.pid) - first > LONGEST or past > HUNG:
                 return False
         return True
 

@@ -3,14 +3,11 @@
 
 from __future__ import annotations
 
-import itertools
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
+from step_clock import step_clock
 
 import flexpm
-from flexpm.runs import runner
 from flexpm.runs.checkpoint import Checkpoint
 
 import yade  # isort: skip  (flexpm makes YADE importable)
@@ -25,8 +22,7 @@ def taken_up(monkeypatch, out, last, test, specimen, **asked):
 
     Both look at each tenth step. The first saves its scene from fifty steps before the stop on.
     """
-    seconds = itertools.count(step=runner._LOOK_UP / 10)
-    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
+    step_clock(monkeypatch.setattr, look=10)
 
     def stop(done, expected, text):
         if done > last:

@@ -14,6 +14,7 @@ import yade
 from killed_scripts import ended, started
 from refusals import refusal
 from scenes import fresh
+from step_clock import STEP
 
 import flexpm
 from flexpm import renamed
@@ -289,18 +290,12 @@ def test_the_outcome_of_an_earlier_run_of_a_study_has_the_present_measures(tmp_p
 
 #: A beam in a soft machine, by old names; it kills itself at a step if there is a file with one.
 BEGUN = """
-import os, pathlib, flexpm, yade
-from flexpm.rigs.rig import TestRig
-from flexpm.runs import runner
-runner._LOOK_UP = 1e-3
-last, take = int(pathlib.Path("last").read_text()), TestRig._step
-
-def step(rig):
-    take(rig)
-    if last and yade.O.iter >= last:
-        os.kill(os.getpid(), 9)
-
-TestRig._step = step
+import pathlib, flexpm
+from self_signals import at_steps
+from step_clock import step_clock
+step_clock(setattr, look=10)
+last = int(pathlib.Path("last").read_text())
+at_steps([(last, 9)] if last else [])
 made = flexpm.Specimen.rectangle(0.012, 0.012, 0.01, seed=1)
 built = flexpm.build(made, model="rigid")
 rig = flexpm.PartRig(built, out="out", checkpoint_interval=INTERVAL, report=False)
@@ -330,7 +325,7 @@ def translated(text: str, names: dict[str, str]) -> str:
 @pytest.mark.parametrize("names", [{}, PRESENT], ids=["old", "new"])
 def test_a_test_that_was_begun_under_old_names_goes_on(tmp_path, names):
     (tmp_path / "last").write_text("120")
-    assert ended(started(tmp_path, BEGUN, interval=0.01))[0] == -signal.SIGKILL
+    assert ended(started(tmp_path, BEGUN, interval=40 * STEP))[0] == -signal.SIGKILL
     file = tmp_path / "out" / "checkpoint.json"
     content = json.loads(file.read_text())
     calls = content["told"]["calls"]
@@ -347,7 +342,7 @@ def test_a_test_that_was_begun_under_old_names_goes_on(tmp_path, names):
     content[checkpoint._CHECKSUM] = checkpoint._checksum(content, scene)
     file.write_text(json.dumps(content))
     (tmp_path / "last").write_text("0")
-    process = started(tmp_path, translated(BEGUN, names), interval=0.01)
+    process = started(tmp_path, translated(BEGUN, names), interval=40 * STEP)
     code, line = ended(process)
     assert code == 0, line
     found = json.loads((tmp_path / "out" / "result.json").read_text())

@@ -4,17 +4,15 @@
 from __future__ import annotations
 
 import importlib
-import itertools
 from collections.abc import Callable
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 from scenes import fresh
+from step_clock import step_clock
 
 import flexpm
-from flexpm.runs import runner
 
 # importing flexpm has told Python where YADE is
 wrapper = importlib.import_module("yade.wrapper")
@@ -93,8 +91,7 @@ def half_broken(make: Callable[..., flexpm.Model]) -> flexpm.Model:
 @pytest.fixture
 def look_each_tenth_step(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a test call its progress each tenth step, on a machine of any speed."""
-    seconds = itertools.count(step=runner._LOOK_UP / 10)
-    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
+    step_clock(monkeypatch.setattr, look=10)
 
 
 def solver_of_scene() -> Any:

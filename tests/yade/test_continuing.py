@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import os
 import re
+import select
 import signal
-import time
 from itertools import pairwise
 
 import pytest
+from processes import HUNG
 from yade import wrapper
 
 STEPS = 300
@@ -119,12 +120,11 @@ def test_a_process_that_was_forked_steps_with_threads_of_its_own(make):
     if child == 0:
         O.step()
         os._exit(0 if model.solver.unbalanced() >= 0 else 1)
-    deadline = time.monotonic() + 600
-    while not (ended := os.waitpid(child, os.WNOHANG))[0]:
-        if time.monotonic() > deadline:
-            os.kill(child, signal.SIGKILL)
-        time.sleep(0.01)
-    assert ended[1] == 0
+    end = os.pidfd_open(child)
+    if not select.select([end], [], [], HUNG)[0]:
+        os.kill(child, signal.SIGKILL)
+    os.close(end)
+    assert os.waitpid(child, 0)[1] == 0
 
 
 def test_a_scene_of_another_layout_of_the_state_is_refused(make, tmp_path):

@@ -85,7 +85,7 @@ flexpm.Gl1_LaguerreCell.mesh = {{mesh}}
 view = qt.View()
 view.axes = False
 qt.Renderer().bgColor = (1, 1, 1)
-shot = qt.SnapshotEngine(fileBase="shot-", iterPeriod=1, deadTimeout=60)
+shot = qt.SnapshotEngine(fileBase="shot-", iterPeriod=1, deadTimeout=600)
 O.engines = O.engines + [shot]
 view.viewDir = (0, 0, -1)
 view.upVector = (0, 1, 0)

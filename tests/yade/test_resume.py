@@ -10,14 +10,15 @@ import shutil
 import signal
 import struct
 import subprocess
-import time
 from pathlib import Path
 
 import hypothesis
 import pytest
+import self_signals
 import yade
 from hypothesis import HealthCheck, assume, given
 from hypothesis import strategies as st
+from processes import captured
 from refusals import refusal
 
 import flexpm
@@ -33,16 +34,15 @@ from flexpm.runs.run_spec import RunSpec
 from flexpm.specimens.spec import SpecimenSpec
 
 PYTHON = "/usr/bin/python3"
+HELPERS = Path(__file__).parents[1] / "helpers"
 SIZE = {"width": 0.012, "height": 0.024, "thickness": 0.01, "seed": 1}
 DISC = {"diameter": 0.016, "thickness": 0.01, "seed": 1}
 TESTS = {
-    "uniaxial": {"rate": 0.25},
-    "tension": {"rate": 0.1},
-    "biaxial": {"rate": 0.4, "confinement": 5e6},
-    "brazilian": {"rate": 0.06},
+    "uniaxial": {},
+    "tension": {},
+    "biaxial": {"confinement": 5e6},
+    "brazilian": {},
 }
-#: On the rate: a step of rigid grains is short, one of inner particles long.
-FACTORS = {"rigid": 0.125, "inner": 4.0, "inner-un": 4.0}
 SPEC = RunSpec("uniaxial", SpecimenSpec(), {})
 #: Stages of flexpm's own models in which a test is killed, one after the other.
 STAGES = {"biaxial": (1, 2)}
@@ -50,20 +50,25 @@ STAGES = {"biaxial": (1, 2)}
 STOPPED = {"rate": 8.0, "max_strain": 1e-5}
 #: Writes a file into a folder that it has locked, and comes to no end.
 HOLD = """
-import sys, time
+import sys
 from pathlib import Path
 from flexpm.files import FolderLock, whole_file
 lock = FolderLock(Path(sys.argv[1]))
 with whole_file(Path(sys.argv[1]) / "curve.csv"):
     print("locked", flush=True)
-    time.sleep(60)
+    sys.stdin.read()
 """
+#: Saves each twentieth step, and kills itself after it has saved a stage.
 SCRIPT = """
 import json, sys, flexpm
+from self_signals import after_save
+from step_clock import STEP, step_clock
+step_clock(setattr, look=10)
 job = json.loads(sys.argv[1])
+after_save(lambda position: position.stage >= job["stage"])
 make = flexpm.Specimen.disc if job["test"] == "brazilian" else flexpm.Specimen.rectangle
 specimen = make(**job["size"])
-settings = dict(job["settings"], model=job["model"], out="out", checkpoint_interval=1e-3)
+settings = dict(job["settings"], model=job["model"], out="out", checkpoint_interval=10 * STEP)
 flexpm.run(job["test"], specimen, **settings)
 """
 
@@ -73,67 +78,39 @@ def small() -> flexpm.Specimen:
     return flexpm.Specimen.rectangle(**SIZE)
 
 
-def settings_of(test: str, model: str) -> dict:
-    """Settings of a run that lasts about a second of stepping, long enough to be killed within."""
-    settings = TESTS[test]
-    return settings | {"rate": settings["rate"] * FACTORS.get(model, 1.0)}
-
-
-def start(
-    test: str, folder: Path, package_parent: Path, model: str = "flexible"
-) -> subprocess.Popen[str]:
-    size = DISC if test == "brazilian" else SIZE
-    job = json.dumps(
-        {"size": size, "test": test, "model": model, "settings": settings_of(test, model)}
-    )
-    environment = dict(os.environ, PYTHONPATH=str(package_parent), OMP_NUM_THREADS="1")
-    command = [PYTHON, "-c", SCRIPT, job]
-    return subprocess.Popen(command, cwd=folder, env=environment, stderr=subprocess.PIPE, text=True)
+def environment_of(package_parent: Path) -> dict[str, str]:
+    """Surroundings of a process, with the helpers of tests."""
+    paths = f"{package_parent}{os.pathsep}{HELPERS}"
+    return dict(os.environ, PYTHONPATH=paths, OMP_NUM_THREADS="1")
 
 
 def saved_in(folder: Path) -> dict:
     return json.loads((folder / "checkpoint.json").read_text())
 
 
-def saved(folder: Path) -> dict:
-    """The checkpoint that is there; its file is whole at any time."""
-    file = folder / "out" / "checkpoint.json"
-    return json.loads(file.read_text()) if file.exists() else {"stage": 0, "scene": ""}
-
-
-def kill_after(process: subprocess.Popen[str], folder: Path, stage: int) -> dict:
-    """Kill the process once it has written a new checkpoint of `stage`."""
-    before = saved(folder)["scene"]
-    while process.poll() is None:
-        found = saved(folder)
-        if found["scene"] != before and found["stage"] >= stage:
-            break
-        time.sleep(0.002)
-    process.kill()
-    assert process.wait() == -signal.SIGKILL, process.stderr.read()
-    process.stderr.close()
-    return saved(folder)
-
-
-def cpu_time(process: subprocess.Popen[str]) -> float:
-    """Time that a process has computed so far [s], whatever else the machine does."""
-    fields = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
-    return int(fields[11]) / os.sysconf("SC_CLK_TCK")
+def kill_after(stage: int, test: str, model: str, package_parent: Path, folder: Path) -> dict:
+    """Checkpoint of a process that kills itself once it has written a new one of `stage`."""
+    size, settings = DISC if test == "brazilian" else SIZE, TESTS[test]
+    job = {"size": size, "test": test, "model": model, "settings": settings, "stage": stage}
+    command = [PYTHON, "-c", SCRIPT, json.dumps(job)]
+    done = captured(command, cwd=folder, env=environment_of(package_parent))
+    assert done.returncode == -signal.SIGKILL, done.stderr
+    return saved_in(folder / "out")
 
 
 def kill_and_resume(test: str, model: str, package_parent: Path, folder: Path) -> None:
     stages = (1,) if model in SPHERE_MODELS else STAGES.get(test, (1,))
     for stage in stages:
-        left = kill_after(start(test, folder, package_parent, model), folder, stage)
+        left = kill_after(stage, test, model, package_parent, folder)
         assert left["stage"] == stage
         assert (folder / "out" / left["scene"]).exists()
         assert not (folder / "out" / "result.json").exists()
     made = (
         flexpm.Specimen.disc(**DISC) if test == "brazilian" else flexpm.Specimen.rectangle(**SIZE)
     )
-    settings = settings_of(test, model)
+    settings = TESTS[test]
     resumed = flexpm.run(test, made, model=model, out=folder / "out", **settings)
-    assert 0 < resumed.resumed_at < resumed.steps
+    assert resumed.resumed_at == int(re.findall(r"[0-9]+", left["scene"])[0]) < resumed.steps
     flexpm.run(test, made, model=model, out=folder / "whole", **settings)
     for name in ("curve.csv", "cracks.csv", "final.vtu"):
         assert (folder / "out" / name).read_bytes() == (folder / "whole" / name).read_bytes()
@@ -221,26 +198,13 @@ def test_a_checkpoint_of_another_version_is_refused(small, tmp_path, monkeypatch
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupted_command_saves_a_checkpoint(package_parent, tmp_path, number, code):
     size = ["--width", "0.016", "--height", "0.032", "--thickness", "0.01"]
-    environment = dict(os.environ, PYTHONPATH=str(package_parent), OMP_NUM_THREADS="1")
-    command = [PYTHON, "-m", "flexpm", "run", "uniaxial", *size, "--out", "out", "--rate", "0.1"]
-    process = subprocess.Popen(
-        command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True
-    )
-    # written before the first step
-    while not (tmp_path / "out" / "specimen.vtu").exists():
-        assert process.poll() is None, process.stderr.read()
-        time.sleep(0.01)
-    stepping = cpu_time(process) + 0.5
-    while cpu_time(process) < stepping:
-        assert process.poll() is None, process.stderr.read()
-        time.sleep(0.01)
-    process.send_signal(number)
-    errors = process.communicate(timeout=600)[1]
-    assert (process.returncode, errors.count("\n")) == (code, 1), errors
-    left = saved(tmp_path)
-    assert left["stage"] == 1
+    words = ["run", "uniaxial", *size, "--out", "out"]
+    command = self_signals.command(*words, at_steps=[(300, number)])
+    done = captured(command, cwd=tmp_path, env=environment_of(package_parent))
+    assert (done.returncode, done.stderr.count("\n")) == (code, 1), done.stderr
+    left = saved_in(tmp_path / "out")
+    assert (left["stage"], left["scene"]) == (1, "checkpoint-300.bin")
     assert (tmp_path / "out" / left["scene"]).exists()
-    assert int(left["scene"].removeprefix("checkpoint-").removesuffix(".bin")) > 0
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"scene": "x"}', "null"])
@@ -444,6 +408,7 @@ def test_a_folder_takes_one_process_and_a_dead_one_leaves_it_free(package_parent
     holder = subprocess.Popen(
         [PYTHON, "-c", HOLD, str(tmp_path)],
         env=dict(os.environ, PYTHONPATH=str(package_parent), FLEXPM_DEFER="1"),
+        stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
     )
@@ -455,6 +420,7 @@ def test_a_folder_takes_one_process_and_a_dead_one_leaves_it_free(package_parent
     assert len([name for name in tmp_path.iterdir() if name.name.startswith(".flexpm-")]) == 1
     holder.kill()
     holder.wait()
+    holder.stdin.close()
     holder.stdout.close()
     lock = FolderLock(tmp_path)
     assert FolderLock(tmp_path) is lock  # once more in this process

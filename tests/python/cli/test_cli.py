@@ -6,10 +6,10 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
+from processes import captured
 
 import flexpm
 from flexpm.cli import main as cli
@@ -226,21 +226,30 @@ def test_disc_specimen(capsys, tmp_path):
     assert found["grains"] == round(0.9 * (0.015 / 1.5e-3) ** 2)
 
 
+#: The command, to which a signal comes when its packing tells its progress for the second time.
+SIGNALLED = """
+import os, sys
+from flexpm.cli import terminal
+number, told = int(sys.argv.pop(1)), []
+
+def tell(progress, done, expected, text=""):
+    told.extend([done] if text == "packing" else [])
+    if len(told) == 2:
+        os.kill(os.getpid(), number)
+
+terminal.Progress.__call__ = tell
+import flexpm.__main__  # does the command
+"""
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_signals_end_the_command_with_one_line(tmp_path, number, code):
-    arguments = ["specimen", "rectangle", "--diameters", "0.4e-3,0.8e-3", "--out", str(tmp_path)]
-    process = started(*arguments)  # a packing that takes minutes
-    while "_flexpm.so" not in Path(f"/proc/{process.pid}/maps").read_text():
-        assert process.poll() is None
-        time.sleep(0.01)
-    time.sleep(1.0)
-    assert process.poll() is None
-    process.send_signal(number)
-    output, errors = process.communicate(timeout=600)
-    assert (process.returncode, output) == (code, "")
-    assert errors.startswith("flexpm: ")
-    assert errors.count("\n") == 1
+    command = [sys.executable, "-P", "-c", SIGNALLED, str(int(number)), "specimen", "rectangle"]
+    done = captured([*command, "--out", str(tmp_path)], env=ENVIRONMENT, timeout=600)
+    assert (done.returncode, done.stdout) == (code, "")
+    assert done.stderr.startswith("flexpm: ")
+    assert done.stderr.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
 
 

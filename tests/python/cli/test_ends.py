@@ -14,7 +14,8 @@ import time
 from pathlib import Path
 
 import pytest
-from processes import captured
+import self_signals
+from processes import captured, wait_for
 from sample_snapshot import read_vtu
 
 import flexpm
@@ -31,6 +32,10 @@ COMMAND = [sys.executable, "-P", "-m", "flexpm"]
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 TINY = ["--width", "0.012", "--height", "0.024", "--quiet"]
 SOON = ["tension", *TINY, "--rate", "8", "--max-strain", "1e-5"]
+#: A run of some thousand steps.
+RUN = ["run", "uniaxial", *TINY]
+#: A run that comes to no end.
+ENDLESS = ["run", "uniaxial", *TINY, "--rate", "1e-9"]
 
 
 @pytest.fixture(autouse=True)
@@ -188,12 +193,13 @@ def test_a_folder_of_no_valid_name_is_refused(capsys):
 @pytest.mark.parametrize("library", ["libyade", "_minieigenHP", "_flexpm.so", "_multiarray"])
 def test_a_signal_while_libraries_are_loaded_is_one_line(tmp_path, number, code, library):
     process = subprocess.Popen(
-        [*COMMAND, "elastic", *TINY], env=ENVIRONMENT, stderr=subprocess.PIPE, text=True
+        [*COMMAND, *ENDLESS, "--out", str(tmp_path)],
+        env=ENVIRONMENT,
+        stderr=subprocess.PIPE,
+        text=True,
     )
     maps = Path(f"/proc/{process.pid}/maps")
-    while library not in maps.read_text():
-        assert process.poll() is None, process.stderr.read()
-        time.sleep(0.001)
+    wait_for(lambda: library in maps.read_text(), process, each=0.001)
     process.send_signal(number)
     errors = process.communicate(timeout=600)[1]
     assert process.returncode == code, errors
@@ -205,7 +211,7 @@ def blocks(process: int, number: int) -> bool:
 
     Signals wait for a moment before, too, in the copy of this process that becomes the launcher.
     """
-    if "doctor" not in Path(f"/proc/{process}/cmdline").read_text():
+    if "uniaxial" not in Path(f"/proc/{process}/cmdline").read_text():
         return False
     lines = Path(f"/proc/{process}/status").read_text().splitlines()
     mask = next(line.split()[1] for line in lines if line.startswith("SigBlk:"))
@@ -214,15 +220,16 @@ def blocks(process: int, number: int) -> bool:
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 @pytest.mark.parametrize("delay", [0.0, 0.01, 0.02, 0.04, 0.08])
-def test_a_signal_while_python_starts_is_one_line(number, code, delay, launcher):
+def test_a_signal_while_python_starts_is_one_line(tmp_path, number, code, delay, launcher):
     """From the first line of the launcher on, to which a busy machine takes its time."""
     process = subprocess.Popen(
-        [*launcher, "doctor"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [*launcher, *ENDLESS, "--out", str(tmp_path)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
     )
-    while not blocks(process.pid, number):
-        assert process.poll() is None
-        time.sleep(0.001)
-    time.sleep(delay)
+    wait_for(lambda: blocks(process.pid, number), process, each=0.001)
+    time.sleep(delay)  # noqa: TID251 - it still starts, or steps already
     process.send_signal(number)
     errors = process.communicate(timeout=600)[1]
     assert process.returncode == code, errors
@@ -250,27 +257,10 @@ def test_what_a_killed_process_left_is_removed_and_a_second_one_is_refused(tmp_p
 @pytest.mark.long
 def test_a_killed_process_leaves_no_temporary_folder_of_yade(tmp_path):
     (tmp_path / "tmp").mkdir()
-    command = [*COMMAND, "run", "uniaxial", *TINY, "--rate", "0.1", "--out", str(tmp_path / "out")]
-    process = subprocess.Popen(command, env=ENVIRONMENT | {"TMPDIR": str(tmp_path / "tmp")})
-    while not (tmp_path / "out" / "specimen.vtu").exists():
-        assert process.poll() is None
-        time.sleep(0.01)
-    process.kill()
-    process.wait()
+    surroundings = ENVIRONMENT | {"TMPDIR": str(tmp_path / "tmp")}
+    killed = self_signals.command(*RUN, "--out", tmp_path / "out", at_steps=[(100, signal.SIGKILL)])
+    assert captured(killed, env=surroundings).returncode == -signal.SIGKILL
     assert not list((tmp_path / "tmp").glob("yade*"))
-
-
-def started(tmp_path, *before):
-    """A run that has begun to step: its first frame is there."""
-    command = [*before, *COMMAND, "run", "uniaxial", *TINY, "--rate", "0.05", "--out", "out"]
-    command += ["--frames", "100"]
-    process = subprocess.Popen(
-        command, env=ENVIRONMENT, cwd=tmp_path, stderr=subprocess.PIPE, text=True
-    )
-    while not any((tmp_path / "out").glob("frames/*.vtu")):
-        assert process.poll() is None, process.stderr.read()
-        time.sleep(0.01)
-    return process
 
 
 @pytest.fixture
@@ -284,33 +274,32 @@ def heard():
 @pytest.mark.long
 @pytest.mark.usefixtures("heard")
 def test_a_run_whose_terminal_is_closed_saves_its_state(tmp_path):
-    process = started(tmp_path)
-    process.send_signal(signal.SIGHUP)
-    errors = process.communicate(timeout=600)[1]
-    assert process.returncode == 129, errors
-    assert "terminated" in one_line(errors)
+    hung_up = [*RUN, "--frames", 100, "--out", "out"]
+    closed = self_signals.command(*hung_up, at_steps=[(100, signal.SIGHUP)])
+    done = captured(closed, env=ENVIRONMENT, cwd=tmp_path)
+    assert done.returncode == 129, done.stderr
+    assert "terminated" in one_line(done.stderr)
     left = {file.name for file in (tmp_path / "out").iterdir()}
-    assert "checkpoint.json" in left
+    assert {"checkpoint.json", "checkpoint-100.bin"} <= left
     assert not [name for name in left if name.startswith(".flexpm")]
 
 
 @pytest.mark.long
 def test_a_run_that_ignores_its_terminal_goes_on(tmp_path):
-    process = started(tmp_path, "nohup")
-    process.send_signal(signal.SIGHUP)
-    time.sleep(1.0)
-    assert process.poll() is None
-    process.terminate()
-    assert process.wait(timeout=600) == 143
+    moments = [(100, signal.SIGHUP), (300, signal.SIGTERM)]
+    kept = ["nohup", *self_signals.command(*RUN, "--out", "out", at_steps=moments)]
+    done = captured(kept, env=ENVIRONMENT, cwd=tmp_path)
+    assert done.returncode == 143, done.stderr
+    assert (tmp_path / "out" / "checkpoint-300.bin").exists()
 
 
 STUCK = """
-import sys
+import ctypes, itertools, os, sys
 from flexpm.cli import signals
 signals.end_in_time()
 signals.catch_signals()
-print("ready", flush=True)
-sum(iter(int, 1))  # never comes back to Python's own loop
+asked = map(ctypes.CDLL(None).kill, [os.getpid()], [int(sys.argv[1])])
+sum(itertools.chain(asked, iter(int, 1)))  # never comes back to Python's own loop
 """
 
 
@@ -318,14 +307,9 @@ sum(iter(int, 1))  # never comes back to Python's own loop
 @pytest.mark.usefixtures("heard")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_a_process_in_a_library_that_loops_is_ended(number):
-    process = subprocess.Popen(
-        [sys.executable, "-c", STUCK], env=ENVIRONMENT, stdout=subprocess.PIPE, text=True
-    )
-    assert process.stdout.readline() == "ready\n"
-    time.sleep(0.5)
-    process.send_signal(number)
-    assert process.wait(timeout=600) == -signal.SIGKILL
-    assert process.stdout.read() == ""  # and nobody else holds it open
+    """It is asked to end within the loop; nobody else holds its output open."""
+    stuck = [sys.executable, "-c", STUCK, str(int(number))]
+    assert captured(stuck, env=ENVIRONMENT, timeout=600).returncode == -signal.SIGKILL
 
 
 def test_a_process_that_has_ended_leaves_nobody_who_watches(tmp_path):

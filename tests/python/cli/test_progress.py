@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import re
 import threading
-import time
 
 import pytest
+from processes import HUNG, wait_for
+from step_clock import step_clock
 
 from flexpm.cli import main as cli
 from flexpm.cli import terminal
@@ -22,7 +23,24 @@ STEPS = re.compile(
 
 @pytest.fixture(autouse=True)
 def _soon(monkeypatch):
-    monkeypatch.setattr(terminal, "LINES_EVERY", 0.02)
+    """Lines come one after the other, and what is told waits for a line that has it."""
+    monkeypatch.setattr(terminal, "LINES_EVERY", 0.001)
+    step_clock(monkeypatch.setattr, look=100)
+    written, tell, write = threading.Event(), terminal.Progress.__call__, terminal.Progress._line
+
+    def told(progress, *state):
+        tell(progress, *state)
+        for _ in range(2 * progress._lined):  # the first may have been begun before
+            written.clear()
+            assert written.wait(HUNG)
+
+    def line(progress):
+        made = write(progress)
+        written.set()
+        return made
+
+    monkeypatch.setattr(terminal.Progress, "__call__", told)
+    monkeypatch.setattr(terminal.Progress, "_line", line)
 
 
 def told(capsys):
@@ -56,11 +74,11 @@ def test_what_reports_seldom_is_told_all_the_same(capsys):
     lines = []
 
     def waited_for(ending: str, times: int) -> None:
-        latest = time.monotonic() + 600.0
-        while sum(one.endswith(ending) for one in lines) < times:
-            assert time.monotonic() < latest, lines
-            time.sleep(0.001)
+        def there() -> bool:
             lines.extend(told(capsys))
+            return sum(one.endswith(ending) for one in lines) >= times
+
+        wait_for(there, each=0.001)
 
     with terminal.Progress(unit="sets") as progress:
         waited_for(": working", 1)
@@ -69,18 +87,17 @@ def test_what_reports_seldom_is_told_all_the_same(capsys):
 
 
 def test_no_line_comes_after_the_end(capsys, monkeypatch):
-    monkeypatch.setattr(terminal, "LINES_EVERY", 0.0)
-    begun, ended = threading.Event(), threading.Event()
-    write = terminal.Progress._line
+    begun, write = threading.Event(), terminal.Progress._line
 
     def slow(progress):
         begun.set()
-        ended.wait(0.05)  # the end comes while a line is being made
+        progress._over.wait(HUNG)  # the end comes while a line is being made
         return write(progress)
 
     monkeypatch.setattr(terminal.Progress, "_line", slow)
-    with terminal.Progress():
-        begun.wait()
+    with terminal.Progress() as progress:
+        join = progress._writer.join
+        monkeypatch.setattr(progress._writer, "join", lambda timeout: join(HUNG))
+        assert begun.wait(HUNG)
     assert told(capsys)
-    ended.wait(0.2)
-    assert told(capsys) == []
+    assert not progress._writer.is_alive()

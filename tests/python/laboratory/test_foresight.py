@@ -3,17 +3,14 @@
 
 from __future__ import annotations
 
-import itertools
-from types import SimpleNamespace
-
 import pytest
+from step_clock import step_clock
 
 import flexpm
 from flexpm.cli import main as cli
 from flexpm.cli.terminal import duration
 from flexpm.laboratory.carrying_out import carry_out
 from flexpm.laboratory.plan import plan_run
-from flexpm.runs import runner
 from flexpm.runs.run_spec import RunSpec, described
 
 FAST = {"rate": 8.0, "stop_ratio": 0.8}
@@ -23,7 +20,7 @@ SIZES = ["--width", "0.012", "--height", "0.024", "--thickness", "0.01"]
 @pytest.fixture(autouse=True)
 def _looks_soon(monkeypatch):
     """A run of few steps is looked at often enough."""
-    monkeypatch.setattr(runner, "_LOOK_UP", 0.001)
+    step_clock(monkeypatch.setattr, look=10)
 
 
 @pytest.mark.parametrize(
@@ -47,8 +44,7 @@ def test_the_steps_of_the_loading_are_told_once(test, model, confinement, tmp_pa
 
 
 def test_the_few_steps_of_an_elastic_start_are_not_told(monkeypatch):
-    seconds = itertools.count(step=0.6 * runner._LOOK_UP)  # a look at each step, as of slow steps
-    monkeypatch.setattr(runner, "time", SimpleNamespace(perf_counter=lambda: next(seconds)))
+    step_clock(monkeypatch.setattr, look=1)  # as slow steps have it
     specimen = flexpm.Specimen.rectangle(0.012, 0.024, thickness=0.01, seed=1)
     material = flexpm.materials.load(None)
     spec = RunSpec("tension", specimen.spec, described(material, "flexible"), "flexible", **FAST)

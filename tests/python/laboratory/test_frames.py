@@ -14,6 +14,7 @@ import pytest
 from killed_scripts import content, ended, killed, require_same, started
 from PIL import Image
 from refusals import refusal
+from step_clock import step_clock
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import flexpm
@@ -25,7 +26,6 @@ from flexpm.results import measures
 from flexpm.results.result import Result
 from flexpm.results.vtu import cell_arrays, read_vtu
 from flexpm.rigs import frames
-from flexpm.runs import runner
 from flexpm.runs.output import FILM_FRAMES, Output
 
 WANTED = 6
@@ -198,7 +198,7 @@ class _Interrupt:
 
 
 def test_a_run_that_is_taken_up_keeps_its_frames(specimen, tmp_path, monkeypatch):
-    monkeypatch.setattr(runner, "_LOOK_UP", 1e-4)  # on a busy machine, too
+    step_clock(monkeypatch.setattr, look=10)
     options = {"out": tmp_path, "frames": 500, "rate": 0.01, "loading": "constant"}
     options["max_strain"] = 2e-4
     with pytest.raises(KeyboardInterrupt):

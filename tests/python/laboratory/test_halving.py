@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
-import time
+import signal
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from killed_scripts import HELPERS
+from processes import captured
 from refusals import refusal
 
 import flexpm
@@ -28,11 +29,17 @@ SIZE = {"width": 0.012, "height": 0.024, "thickness": 0.01}
 FAST = {"model": "rigid", "rate": 4.0, "halvings": 5}
 CONFINED = {"model": "rigid", "rate": 8.0, "halvings": 2, "confinement": 2e6}
 SPEC = RunSpec("uniaxial", SpecimenSpec(), {}, halvings=5)
+#: Kills itself after it has saved a slower loading for the first time.
 KILLED = """
 import sys, flexpm
+from self_signals import after_save
+from step_clock import STEP, step_clock
+step_clock(setattr, look=10)
+after_save(lambda position: position.tried)
 specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01)
-options = dict(rate=2.0, halvings=2, confinement=2e6, out=sys.argv[1], checkpoint_interval=1e-3)
-flexpm.run("biaxial", specimen, model="rigid", **options)
+kept = dict(out=sys.argv[1], checkpoint_interval=90 * STEP)
+options = dict(rate=2.0, halvings=2, confinement=2e6)
+flexpm.run("biaxial", specimen, model="rigid", **options, **kept)
 """
 
 
@@ -207,25 +214,19 @@ def test_an_interrupted_run_goes_on_to_the_same_bits(small, tmp_path, before, lo
 
 @pytest.mark.long
 def test_a_run_killed_in_a_slower_loading_goes_on_to_the_same_bits(small, tmp_path, package_parent):
-    environment = dict(os.environ, PYTHONPATH=str(package_parent), OMP_NUM_THREADS="1")
-    words = ["/usr/bin/python3", "-c", KILLED, str(tmp_path / "out")]
-    file, kills = tmp_path / "out" / "checkpoint.json", 0
-    for _ in range(5):
-        process = subprocess.Popen(words, env=environment)
-        scene = json.loads(file.read_text())["scene"] if file.exists() else ""
-        while process.poll() is None:
-            there = json.loads(file.read_text()) if file.exists() else {}
-            if kills < 3 and there.get("tried") and there["scene"] != scene:
-                process.kill()
-                kills += 1
-                break
-            time.sleep(0.002)
-        if process.wait() == 0:
-            break
-    assert kills == 3
+    paths = f"{package_parent}{os.pathsep}{HELPERS}"
+    environment = dict(os.environ, PYTHONPATH=paths, OMP_NUM_THREADS="1")
+    words, out = ["/usr/bin/python3", "-c", KILLED, str(tmp_path / "out")], tmp_path / "out"
+    scenes = []
+    for _ in range(3):
+        done = captured(words, env=environment)
+        assert done.returncode == -signal.SIGKILL, done.stderr
+        scenes.append(json.loads((out / "checkpoint.json").read_text())["scene"])
+    assert len({*scenes}) == 3  # each start has taken up what the one before has saved
     options = {"model": "rigid", "rate": 2.0, "halvings": 2, "confinement": 2e6}
+    found = flexpm.run("biaxial", small, **options, out=out)
+    assert scenes[-1] == f"checkpoint-{found.resumed_at}.bin"
     whole = flexpm.run("biaxial", small, **options)
-    found = flexpm.Result.read(tmp_path / "out")
     assert same_record(whole, found)
     assert differences(whole.as_dict(), found.as_dict()) == []
 

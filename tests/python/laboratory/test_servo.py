@@ -11,13 +11,13 @@ import pytest
 import yade
 from refusals import refusal
 from scenes import fresh
+from step_clock import step_clock
 
 import flexpm
 from flexpm.cli.main import main
 from flexpm.errors import InputError
 from flexpm.results import measures
 from flexpm.rigs.part_rig import PartRig
-from flexpm.runs import runner
 from flexpm.runs.checkpoint import Checkpoint
 from flexpm.runs.loading_rate import Loading
 from flexpm.runs.run_spec import RunSpec, described
@@ -189,7 +189,7 @@ def test_a_controlled_test_that_was_interrupted_has_the_same_bits(
         save(self)
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(runner, "_LOOK_UP", 1e-3)  # on a fast machine one look takes it to the end
+    step_clock(monkeypatch.setattr, look=10)
     monkeypatch.setattr(Checkpoint, "save", interrupt)
     monkeypatch.setattr(Checkpoint, "due", property(lambda self: yade.O.iter > end))
     with pytest.raises(KeyboardInterrupt):

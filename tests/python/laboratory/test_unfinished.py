@@ -10,10 +10,10 @@ import shutil
 import numpy as np
 import pytest
 from refusals import refusal
+from step_clock import STEP, step_clock
 
 import flexpm
 from flexpm.cli import main as cli
-from flexpm.runs import runner
 from flexpm.studies import jobs, pages
 
 FLAT = {"width": 0.012, "height": 0.024, "thickness": 0.01, "seed": 1}
@@ -43,17 +43,18 @@ def stopped(request, tmp_path, monkeypatch):
     """Name, specimen, options and folder of a run that nobody has ended."""
     shape, sizes, options, last = CASES[request.param]
     specimen = getattr(flexpm.Specimen, shape)(**sizes)
-    monkeypatch.setattr(runner, "_LOOK_UP", 0.002)
+    step_clock(monkeypatch.setattr, look=10)
 
     def stop(done, expected, text):
-        if done > last and (tmp_path / "unfinished.json").exists():
+        if done > last:
             raise StopError
 
     with pytest.raises(StopError):  # as a kill, it leaves what was written before
         flexpm.run(
             *(request.param, specimen),
-            **{**options, "out": tmp_path, "progress": stop, "checkpoint_interval": 0.02},
+            **{**options, "out": tmp_path, "progress": stop, "checkpoint_interval": 40 * STEP},
         )
+    assert (tmp_path / "checkpoint.json").exists() and (tmp_path / "unfinished.json").exists()
     return request.param, specimen, options, tmp_path
 
 
@@ -89,7 +90,7 @@ def test_a_finished_folder_keeps_its_files_while_it_is_made_again(tmp_path, monk
     before = (tmp_path / "curve.csv").read_bytes()
     for file in tmp_path.glob("checkpoint*"):
         file.unlink()
-    monkeypatch.setattr(runner, "_LOOK_UP", 0.002)
+    step_clock(monkeypatch.setattr, look=10)
 
     def stop(done, expected, text):
         if done > 100:
@@ -97,8 +98,9 @@ def test_a_finished_folder_keeps_its_files_while_it_is_made_again(tmp_path, monk
 
     with pytest.raises(StopError):
         flexpm.run(
-            "tension", specimen, out=tmp_path, progress=stop, checkpoint_interval=1e-3, **options
+            "tension", specimen, out=tmp_path, progress=stop, checkpoint_interval=STEP, **options
         )
+    assert (tmp_path / "checkpoint.json").exists()  # tables were due, too
     assert (tmp_path / "curve.csv").read_bytes() == before
     assert not (tmp_path / "unfinished.json").exists()
 

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import base64
-import time
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browser import opened, shown, slide
+from processes import wait_for
 
 import flexpm
 from flexpm.cli import main as cli
@@ -167,11 +167,8 @@ def pixels(browser: object) -> str:
 
 def drawn(browser: object, file: Path) -> list[str]:
     asked_for = shown(browser, file)
-    for _ in range(6000):
-        if browser.execute_script("return Boolean(views['map-solid'])"):
-            return asked_for
-        time.sleep(0.1)
-    raise AssertionError("the solid is not drawn after ten minutes")
+    wait_for(lambda: browser.execute_script("return Boolean(views['map-solid'])"), each=0.1)
+    return asked_for
 
 
 def test_slider_cut_and_colours_change_what_is_seen(browser, ended):
@@ -195,10 +192,7 @@ def test_slider_cut_and_colours_change_what_is_seen(browser, ended):
 def test_a_browser_without_webgl_says_so(without_webgl, ended):
     shown(without_webgl, ended / page.FILE)
     missing = without_webgl.find_element("id", "map-solid-missing")
-    for _ in range(6000):
-        if missing.is_displayed():
-            break
-        time.sleep(0.1)
+    wait_for(missing.is_displayed, each=0.1)
     assert "no WebGL" in missing.text
     assert not without_webgl.find_element("id", "map-solid-shown").is_displayed()
 

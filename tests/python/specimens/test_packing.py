@@ -3,11 +3,10 @@
 
 import os
 import sys
-import time
 
 import numpy as np
 import pytest
-from processes import captured
+from processes import captured, wait_for
 from refusals import refusal
 
 from flexpm import _flexpm
@@ -274,8 +273,8 @@ def test_a_packing_in_a_running_simulation_is_refused():
     scene = wrapper.Omega()
     scene.engines = [wrapper.ForceResetter()]
     scene.run()
-    while not scene.iter:  # YADE crashes if a scene goes before the thread of its run has begun
-        time.sleep(1e-3)
+    # YADE crashes if a scene goes before the thread of its run has begun
+    wait_for(lambda: scene.iter)
     try:
         with pytest.raises(SimulationError, match=r"O\.pause"):
             packing.pack(packing.Frame(width=0.02, height=0.02), radii_of(40), UNIT, 1)

@@ -8,13 +8,12 @@ import json
 import math
 import os
 import signal
-import subprocess
-import time
 from pathlib import Path
 
 import pandas
 import pytest
-from processes import captured
+import self_signals
+from processes import captured, is_free, wait_for
 from refusals import refusal
 
 from flexpm import materials
@@ -573,25 +572,14 @@ def synthetic(folder: Path) -> Path:
 def test_known_parameters_are_recovered_also_after_a_kill(tmp_path, package_parent):
     path = synthetic(tmp_path)
     out = tmp_path / "out"
-    arguments = [
-        "/usr/bin/python3",
-        "-P",
-        "-m",
-        "flexpm",
-        "calibrate",
-        str(path),
-        "--out",
-        str(out),
-    ]
+    words = ["calibrate", str(path), "--out", str(out)]
     environment = dict(os.environ, PYTHONPATH=str(package_parent))
-    started = subprocess.Popen(arguments, env=environment)
-    while len(list(out.glob("runs/*/outcome.json"))) < 12:
-        assert started.poll() is None
-        time.sleep(0.1)
-    started.send_signal(signal.SIGKILL)
-    started.wait()
+    killed = captured(self_signals.command(*words, after_runs=12), env=environment)
+    assert killed.returncode == -signal.SIGKILL, killed.stderr
     finished = {file: file.stat().st_mtime_ns for file in out.glob("runs/*/outcome.json")}
-    done = captured(arguments, env=environment)
+    assert len(finished) == 12
+    wait_for(lambda: all(is_free(folder) for folder in out.glob("runs/*")))
+    done = captured(["/usr/bin/python3", "-P", "-m", "flexpm", *words], env=environment)
     assert done.returncode == 0, done.stdout + done.stderr
     assert all(file.stat().st_mtime_ns == at for file, at in finished.items())
     law = materials.load(out / "synthetic.toml").law()

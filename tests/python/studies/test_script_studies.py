@@ -19,13 +19,13 @@ from flexpm.studies import scripts, study
 PACKAGES = str(Path(flexpm.__file__).parents[1])
 SIZE = "H = 0.012\n"
 BEAM = """
-import sys, time
+import sys, threading
 import flexpm
 from size import H
 
 asked = flexpm.study.parameters(out="beam", seed=1, rate=4.0, way="good")
 if asked["way"] == "hang":
-    time.sleep(100)
+    threading.Event().wait()
 if asked["way"] == "exit":
     sys.exit(7)
 if asked["way"] == "empty":

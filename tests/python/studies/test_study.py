@@ -9,16 +9,16 @@ import os
 import shutil
 import signal
 import subprocess
-import time
 from pathlib import Path
 
 import pandas
 import pytest
+import self_signals
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from matplotlib.axes import Axes
 from matplotlib.image import imread
-from processes import captured
+from processes import captured, is_free, wait_for
 from refusals import refusal
 
 import flexpm
@@ -125,16 +125,14 @@ def test_a_killed_study_repeats_nothing_and_ends_with_the_same_table(tmp_path, p
     assert whole["youngs_modulus"].nunique() == 4
 
     cut = tmp_path / "cut"
-    arguments = command(package_parent, "study", path, "--out", cut, "--workers", 1, "--quiet")
-    started = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    while len(list(cut.glob("runs/*/outcome.json"))) < 2:
-        assert started.poll() is None, started.stderr.read()
-        time.sleep(0.02)
-    started.send_signal(signal.SIGKILL)
-    started.wait()
+    words = ("study", path, "--out", cut, "--workers", 1, "--quiet")
+    environment = os.environ | {"PYTHONPATH": str(package_parent)}
+    killed = captured(self_signals.command(*words, after_runs=2), env=environment)
+    assert killed.returncode == -signal.SIGKILL, killed.stderr
     finished = {file: file.stat().st_mtime_ns for file in cut.glob("runs/*/outcome.json")}
-    assert 2 <= len(finished) < 4
-    done = captured(arguments)
+    assert len(finished) == 2
+    wait_for(lambda: all(is_free(folder) for folder in cut.glob("runs/*")))
+    done = captured(command(package_parent, *words))
     assert done.returncode == 0, done.stderr
     assert all(file.stat().st_mtime_ns == at for file, at in finished.items())
     assert (cut / "table.csv").read_bytes() == (tmp_path / "whole/table.csv").read_bytes()
