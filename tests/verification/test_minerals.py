@@ -10,6 +10,7 @@ import yade
 from hypothesis import given
 from hypothesis import strategies as st
 from refusals import refusal
+from step_clock import step_clock
 
 import flexpm
 from flexpm.materials import mixing as minerals
@@ -252,7 +253,8 @@ def test_a_mineral_that_the_rock_does_not_have():
 
 
 @pytest.mark.long
-def test_an_interrupted_run_goes_on_with_its_minerals_to_the_same_bits(tmp_path):
+def test_an_interrupted_run_goes_on_with_its_minerals_to_the_same_bits(tmp_path, monkeypatch):
+    step_clock(monkeypatch.setattr, look=10)
     specimen = flexpm.Specimen.rectangle(0.012, 0.024, 0.01, seed=1)
     job = {"test": "tension", "specimen": specimen, "material": rock(), "rate": 0.1}
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 import yade
+from step_clock import step_clock
 
 from flexpm.cli import main as cli
 from flexpm.runs.checkpoint import Checkpoint
@@ -63,6 +64,7 @@ def interrupt(monkeypatch, asked: list[str]) -> None:
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patched:
+        step_clock(patched.setattr, look=10)
         patched.setattr(Checkpoint, "due", property(lambda _: yade.O.iter > 0))
         patched.setattr(Checkpoint, "save", saved)
         assert cli.main(asked) == 130

@@ -34,8 +34,8 @@ TINY = ["--width", "0.012", "--height", "0.024", "--quiet"]
 SOON = ["tension", *TINY, "--rate", "8", "--max-strain", "1e-5"]
 #: A run of some thousand steps.
 RUN = ["run", "uniaxial", *TINY]
-#: A run that comes to no end.
-ENDLESS = ["run", "uniaxial", *TINY, "--rate", "1e-9"]
+#: A run of 1.8e9 steps.
+ENDLESS = [*RUN, "--rate", "2e-5", "--loading", "constant"]
 
 
 @pytest.fixture(autouse=True)

@@ -46,6 +46,13 @@ except flexpm.InputError:
 rig.load(flexpm.Loading(rate=RATE, kind="waiting"))
 """
 
+#: Asks its process to end five steps later.
+SIGNALLED = """
+import yade
+from self_signals import at_steps
+at_steps([(yade.O.iter + 5, 15)])
+"""
+
 
 def done_here(folder: Path, monkeypatch: pytest.MonkeyPatch, script: str = SCRIPT) -> None:
     """Do the script in this process, with the same packing again."""
@@ -89,15 +96,8 @@ def test_kills_over_all_stages(whole, tmp_path):
 
 
 def test_a_terminated_script_leaves_what_it_has_reached(tmp_path):
-    waits = SCRIPT.replace(
-        "rig.load(",
-        "rig.watch = lambda one: print(one.strain, flush=True)\nrig.load(",
-    )
-    process = started(tmp_path, waits)
-    for _ in range(3):  # the first row is that before the first step
-        process.stdout.readline()
-    process.send_signal(signal.SIGTERM)
-    assert ended(process)[0] == -signal.SIGTERM
+    script = SCRIPT.replace("rig.load(", f"{SIGNALLED}rig.load(")
+    assert ended(started(tmp_path, script))[0] == -signal.SIGTERM
     found = content(tmp_path / "out")
     assert found["status"] == "unfinished"
     assert any(
