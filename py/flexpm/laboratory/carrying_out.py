@@ -149,7 +149,8 @@ def _tested(
 def _leave(folder: Path, rig: TestRig, spec: RunSpec) -> None:
     """Write the tables of a test that is under way, once there is a record."""
     if not rig.diverged and len(rig.record):
-        write_so_far(folder, outcome(rig, spec))
+        with rig.looked_at():
+            write_so_far(folder, outcome(rig, spec))
 
 
 def _frame_writer(plan: Plan, spec: RunSpec, restore: Callable[[], None] | None) -> FrameWriter:

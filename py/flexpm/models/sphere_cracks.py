@@ -6,7 +6,8 @@ A bond that is neither broken nor present has been erased by a script, which is 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import contextlib
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import yade
@@ -106,6 +107,15 @@ class CrackWatch:
             now = self.interactions[row]
             if now is None or not now.isReal or not self._kind.is_bond(now.phys):
                 self._note(row, ERASED)
+
+    @contextlib.contextmanager
+    def forgetting(self) -> Iterator[None]:
+        """Forget what is found until the end of the block, so that the next look finds it again."""
+        before = self.steps.copy(), self.modes.copy(), self.places.copy()
+        try:
+            yield
+        finally:
+            self.steps, self.modes, self.places = before
 
     def _has_broken(self, row: int) -> bool:
         bond, shape = self.contacts[row], self._shapes[row]

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import sys
 from abc import abstractmethod
@@ -238,6 +239,10 @@ class TestRig(RigReadings):
         wanted = runner.is_between and not runner.position.start
         if wanted and self.saves_anywhere and not self.diverged:
             start.keep(runner.position)
+
+    def looked_at(self) -> contextlib.AbstractContextManager[None]:
+        """Context for reading the state at any time, without effect on the later results."""
+        return contextlib.nullcontext()
 
     @property
     def ended_by(self) -> str | None:

@@ -10,6 +10,7 @@ friction. The elastic energy is that of unbroken bonds and plates (JCFpm) or of 
 
 from __future__ import annotations
 
+import contextlib
 import math
 from dataclasses import asdict, dataclass, field
 
@@ -286,6 +287,10 @@ class SphereRig(TestRig):
             self._runner.reload()
             self.built.rebind()
             self._take_up()
+
+    def looked_at(self) -> contextlib.AbstractContextManager[None]:
+        """Cracks have the step at which they are found: only rows of the record find them."""
+        return self.built.cracks.forgetting()
 
     def _synchronize(self) -> None:
         self._now.rows = self._curve.array.tolist()

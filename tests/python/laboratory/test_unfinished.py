@@ -14,6 +14,8 @@ from step_clock import STEP, step_clock
 
 import flexpm
 from flexpm.cli import main as cli
+from flexpm.laboratory import carrying_out
+from flexpm.models.options import SPHERE_MODELS
 from flexpm.studies import jobs, pages
 
 FLAT = {"width": 0.012, "height": 0.024, "thickness": 0.01, "seed": 1}
@@ -82,6 +84,24 @@ def test_a_stopped_run_has_the_first_rows_of_the_whole_one(stopped, tmp_path_fac
     ended = rows_of(whole / "curve.csv")
     assert early == ended[: len(early)] and len(early) < len(ended)
     assert len(cracks) <= len(rows_of(whole / "cracks.csv"))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("model", SPHERE_MODELS)
+def test_tables_that_are_written_under_way_change_no_result(model, tmp_path, monkeypatch):
+    """Cracks of spheres have the step at which they are found: tables must not find them."""
+    step_clock(monkeypatch.setattr, look=10)
+    written, write = [], carrying_out.write_so_far
+    monkeypatch.setattr(carrying_out, "write_so_far", lambda *given: written.append(write(*given)))
+    specimen, often = flexpm.Specimen.rectangle(**FLAT), {"checkpoint_interval": 50 * STEP}
+    for name, options in (("often", often), ("never", {})):
+        out = tmp_path / name
+        flexpm.run("uniaxial", specimen, model=model, out=out, report=False, **options)
+        assert (len(written) > 5) == (name == "often")
+        written.clear()
+    for name in (*TABLES[:2], "fragments.csv", "final.vtu"):
+        often, never = ((tmp_path / kind / name).read_bytes() for kind in ("often", "never"))
+        assert often == never, name
 
 
 def test_a_finished_folder_keeps_its_files_while_it_is_made_again(tmp_path, monkeypatch):
