@@ -78,7 +78,7 @@ CAMPAIGNS = (*RUNS, "study", "calibration")
 #: A traced call: process, name, arguments.
 _TRACED = re.compile(r"^(\d+) +(\w+)\((.*)$")
 #: Parts of a name that differ from run to run.
-_CHANGING = ((r"-[0-9a-f]{8}\.", "-*."), (r"checkpoint-\d+(\.1)?", "checkpoint-N"))
+_CHANGING = ((r"-[0-9a-f]{8,}\.", "-*."), (r"checkpoint-\d+(\.1)?", "checkpoint-N"))
 #: Wall time between two checkpoints of a run, in its module.
 _INTERVAL = re.compile(r"^INTERVAL = [\d.]+$", re.MULTILINE)
 #: A run's measures that are no results.
