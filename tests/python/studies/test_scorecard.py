@@ -6,11 +6,12 @@ from __future__ import annotations
 import csv
 import json
 import math
+import os
 import signal
-import subprocess
-import time
 
 import pytest
+from killed_scripts import HELPERS
+from processes import captured, is_free, wait_for
 from refusals import refusal, refused_command
 from sample_rows import row as record_row
 
@@ -425,10 +426,12 @@ def started(monkeypatch):
     return found
 
 
-#: A scorecard in a process of its own.
+#: A scorecard in a process of its own, which kills itself after two runs.
 KILLED = """
+from self_signals import after_runs
 from flexpm.studies.scorecards import card, measures
 from flexpm.studies.scorecards.runs import Size
+after_runs(2)
 measures.PRESSURES = {pressures}
 card.scorecard({material!r}, {out!r}, workers=1, **{asked})
 """
@@ -444,23 +447,20 @@ def test_a_killed_scorecard_does_what_is_missing_and_then_nothing(
     monkeypatch.setattr(measures, "PRESSURES", pressures)
     asked = {"shape": shape, "seeds": [41], "size": TINY, "model": "rigid", "report": False}
     text = KILLED.format(pressures=pressures, material=material, out=str(tmp_path), asked=asked)
-    python = ["env", f"PYTHONPATH={package_parent}", "/usr/bin/python3", "-P", "-c", text]
-    process = subprocess.Popen(python, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    while len(list(tmp_path.glob("runs/*/outcome.json"))) < 2:
-        assert process.poll() is None, process.stderr.read()
-        time.sleep(0.02)
-    process.send_signal(signal.SIGKILL)
-    process.wait()
+    paths = f"PYTHONPATH={package_parent}{os.pathsep}{HELPERS}"
+    killed = captured(["env", paths, "/usr/bin/python3", "-P", "-c", text])
+    assert killed.returncode == -signal.SIGKILL, killed.stderr
     done = {file.parent.name for file in tmp_path.glob("runs/*/outcome.json")}
-    assert 2 <= len(done) < 7
+    assert len(done) == 2
+    wait_for(lambda: all(is_free(folder) for folder in tmp_path.glob("runs/*")))
     begun = started(monkeypatch)
     first = card.scorecard(material, tmp_path, **asked)
-    assert len(begun) == 7 - len(done) and not done & {*begun}  # the missing ones, each once
+    assert len(begun) == 5 and not done & {*begun}  # the missing ones, each once
     for name in ("youngs_modulus", "compressive_strength", "direct_tensile_strength"):
         assert first.row(name).mean > 0.0, first.row(name)
     whole = (tmp_path / output.FILE).read_bytes()
     assert card.scorecard(material, tmp_path, **asked).rows == first.rows
-    assert len(begun) == 7 - len(done)  # nothing again
+    assert len(begun) == 5  # nothing again
     assert (tmp_path / output.FILE).read_bytes() == whole
 
 
