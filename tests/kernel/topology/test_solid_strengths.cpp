@@ -18,8 +18,8 @@ TEST_CASE("Each contact of a solid has the law with its factor, at the stiffness
             input.strength.push_back(0.5 + 0.01 * contact);
         const SolidState s = make_solid(p.cells, p.solid, input);
         for (int contact = 0; contact < p.cells.contacts; ++contact) {
-            const LawParameters expected
-                = make_law(scaled_strength(input.contacts[0], input.strength[contact]));
+            const LawParameters expected =
+                make_law(scaled_strength(input.contacts[0], input.strength[contact]));
             CHECK(s.contacts.law_of(contact).tensile_strength == expected.tensile_strength);
             CHECK(s.contacts.law_of(contact).cohesion == expected.cohesion);
             CHECK(s.contacts.law_of(contact).normal_stiffness == expected.normal_stiffness);
