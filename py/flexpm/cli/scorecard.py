@@ -66,7 +66,7 @@ def scorecard(material: str, out: Path, quiet: bool, **options: Any) -> None:
     """Run laboratory tests with MATERIAL, a preset or a TOML file, and judge them by a rock.
 
     Writes a table, a figure and a report. Finished runs are not repeated. The exit code is 3 if a
-    measure that decides is not met.
+    measure that decides is not met, if with full specimens it is not known, or if a run failed.
     """
     from ..studies.scorecards import card
 
@@ -74,13 +74,19 @@ def scorecard(material: str, out: Path, quiet: bool, **options: Any) -> None:
     folder = inputs.locked_folder(out, "scorecard")
     terminal.say(card.foresight(plan, folder))
     with terminal.Progress(quiet, unit="runs") as progress:
-        found = card.carry_out(plan, folder, {**options, "progress": progress})  # type: ignore[typeddict-item]
+        given: Any = {**options, "progress": progress}
+        found = card.carry_out(plan, folder, given)
     terminal.say(str(found))
     for line in found.lost:
         terminal.say(f"failed: {line}")
     terminal.say(f"  files  {folder}/")
-    if found.failed:
-        raise SimulationError(
-            f"measures = {', '.join(found.failed)}, not met; see {folder / 'report.html'}, and "
-            "calibrate the material or change its rock file"
-        )
+    unknown = [name for name in found.unknown if name in found.failed]
+    causes = [
+        f"measures = {', '.join(names)}, {verdict}"
+        for names, verdict in ((found.missed, "not met"), (unknown, "not known"))
+        if names
+    ]
+    if found.lost:
+        causes.append(f"runs = {len(found.lost)} of {found.runs} failed")
+    if causes:
+        raise SimulationError(f"{'; '.join(causes)}; see {folder / 'scorecard.csv'}")

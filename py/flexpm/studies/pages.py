@@ -44,6 +44,7 @@ from .jobs import place_of
 from .scorecards.output import FILE as SCORECARD
 from .scorecards.output import HEADER, NOTE, PAIRS, pair_lines
 from .scorecards.output import PICTURE as BARS
+from .scorecards.verdict import MET, NOT_KNOWN, NOT_MET
 
 #: Maps of a comparison; each takes about a third of a megabyte for the paper's specimen.
 _MOST_MAPS = 6
@@ -244,12 +245,20 @@ def _scorecard(folder: Path) -> Page:
 
 
 def _box(content: Table) -> Status:
-    """Box with the measures by which a scorecard fails."""
-    missed = [words_of(str(name)) for name in content["failed"]]
-    if missed:
-        return Status("not met", False, f"These decide and are not met: {', '.join(missed)}.", "")
+    """Box with the verdict on a scorecard: met only if all measures that decide are met."""
+    found = {
+        verdict: ", ".join(words_of(str(name)) for name in content[key])
+        for verdict, key in ((NOT_MET, "not_met"), (NOT_KNOWN, "not_known"))
+    }
+    told = [
+        f"These decide and are {verdict}: {names}." for verdict, names in found.items() if names
+    ]
     advice = "" if content["size"]["full"] else "Only full specimens decide on all measures."
-    return Status("met", True, "No measure that decides is missed.", advice)
+    if told:
+        return Status(NOT_MET if found[NOT_MET] else NOT_KNOWN, False, " ".join(told), advice)
+    if not any(row["rock"]["decides"] for row in content["rows"]):
+        return Status(NOT_KNOWN, False, "No measure decides.", "")
+    return Status(MET, True, "All measures that decide are met.", advice)
 
 
 def _shared_warnings(found: Mapping[str, Result]) -> list[str]:

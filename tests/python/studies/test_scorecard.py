@@ -7,7 +7,9 @@ import csv
 import json
 import math
 import os
+import re
 import signal
+from importlib.resources import files
 
 import pytest
 from killed_scripts import HELPERS
@@ -90,6 +92,8 @@ def test_packings_that_do_not_count_leave_a_row_unknown():
     assert (found.verdict, found.reasons) == (NOT_KNOWN, ("not quasi-static",))
     assert (found.mean, found.within) == (95e6, 0)  # shown, and not counted
     assert of(none).mean is None
+    found = of(none, fast, good, good, good)  # each reason alone would leave four of five
+    assert found.reasons == ("no peak in 1 of 5", "not quasi-static in 1 of 5")
 
 
 def test_small_specimens_leave_rows_unknown_that_depend_on_size():
@@ -230,6 +234,31 @@ def test_measures_of_a_known_rock():
         ({"split": Ended(message="exit")}, "compressive_indirect_ratio", "run failed"),
         ({"confined_30": ended("triaxial", status="no_peak")}, "hoek_brown_m", "no peak"),
         ({"controlled": ended("uniaxial", status="no_peak")}, "class_two", "no peak"),
+        ({"confined_3": ended("triaxial", peak_stress=90e6)}, "cohesion_low", "no criterion fits"),
+        (
+            {f"confined_{one}": ended("triaxial", peak_stress=90e6) for one in (3, 10, 30, 50)},
+            *("hoek_brown_m", "no criterion fits"),
+        ),
+        (
+            {"split": ended("brazilian", peak_stress=8e6, first_crack_distance=0.8)},
+            *("indirect_tensile_strength", "first cracks at the plates"),
+        ),
+        (
+            {"split": ended("brazilian", peak_stress=8e6, first_crack_distance=0.65)},
+            *("indirect_tensile_strength", ""),
+        ),
+        (
+            {"notched": ended("scb", fracture_toughness=1e6, peak_stress=1e6)},
+            *("fracture_toughness", ""),
+        ),
+        (
+            {
+                "notched": ended(
+                    "scb", fracture_toughness=1e6, peak_stress=1e6, first_crack_distance=0.6
+                )
+            },
+            *("fracture_toughness", "first cracks far from the notch"),
+        ),
     ],
 )
 def test_reasons_of_measures_that_do_not_count(change, measure, reason):
@@ -253,7 +282,17 @@ def test_a_rock_that_never_peaks_has_a_drop_once_the_window_is_whole():
     assert found["peak_ratio_30"].reason == "no peak"
     rising = ended("triaxial", flat.until(2), status="no_peak")
     found = runs.values_of(granite(confined_30=rising), solid=True)
-    assert found["drop_30"] == Value(None, "no peak")
+    assert found["drop_30"] == found["dilation_30"] == Value(None, "ends early")
+
+
+def test_a_specimen_that_contracts_has_no_dilation_angle():
+    falling = curve_through(
+        *((0.0, 0.0), (0.01, 100e6), (0.02, 50e6)), lateral_strain=(0.0, 0.002, -0.002)
+    )
+    still = ended("triaxial", falling, peak_stress=100e6)
+    found = runs.values_of(granite(confined_30=still), solid=True)
+    assert found["dilation_30"] == Value(pytest.approx(-0.8), "")
+    assert found["dilation_angle_30"] == Value(None, "D <= 0")
 
 
 def test_cracks_by_pair_are_shares_of_all_cracks():
@@ -279,11 +318,15 @@ def plan_of(material="augig-calibrated", **options):
         ({"seeds": [1, 1]}, "each once"),
         ({"seeds": []}, "one or more"),
         ({"seeds": [-1]}, "seed"),
+        ({"seeds": 41}, "whole numbers in a list"),
+        ({"seeds": [[41]]}, "seeds = [41], must be a whole number"),
+        ({"seed": 41}, "did you mean seeds?"),
+        ({"sizes": "full"}, "did you mean size?"),
         ({"rock": "none.toml"}, "cannot be read"),
     ],
 )
 def test_wrong_options_are_refused(options, says):
-    refusal(says.replace("?", r"\?"), lambda: plan_of(**options))
+    refusal(re.escape(says), lambda: plan_of(**options))
 
 
 def test_the_command_refuses_in_one_line(capsys):
@@ -301,7 +344,7 @@ def test_the_command_refuses_in_one_line(capsys):
 def test_runs_follow_the_dimension_of_the_material(material, shape, tests):
     plan = plan_of(material, seeds=[41, 42])
     assert (plan.shape, plan.model) == (shape, "rigid" if "rigid" in material else "flexible")
-    jobs = plan.jobs()
+    jobs = plan.jobs
     assert len(jobs) == 2 and len({job.key for one in jobs.values() for job in one.values()}) == 20
     asked = [job.inputs for job in jobs[41].values()]
     assert {name: sum(one["test"] == name for one in asked) for name in tests} == tests
@@ -311,7 +354,7 @@ def test_runs_follow_the_dimension_of_the_material(material, shape, tests):
     jaws = [one.get("jaw_radius") for one in asked if one["test"] == "brazilian"]
     assert jaws == ([0.0225] if plan.solid else [None])
     assert 300 < plan.grains < 500
-    assert plan_of(material, size="full").jobs()[41]["compressed"].inputs["rate"] == 1.0
+    assert plan_of(material, size="full").jobs[41]["compressed"].inputs["rate"] == 1.0
 
 
 def test_each_role_has_one_test_in_each_dimension():
@@ -348,49 +391,92 @@ def test_files_have_all_rows_and_the_page_is_made_from_them(tmp_path, monkeypatc
     assert "no value" in text
 
 
-@pytest.mark.parametrize(("lower", "code"), [(1.0, 0), (1e9, 3)])
-def test_the_exit_code_is_3_if_a_measure_that_decides_is_not_met(
-    tmp_path, monkeypatch, capsys, lower, code
+class MadeUp:
+    """A pool whose runs are made up: the first is the direct solve, the others are alike."""
+
+    others = None
+
+    def __init__(self, *_, **__):
+        pass
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        pass
+
+    def run(self, wanted, progress=None):
+        solved = {"exit_code": 0, "message": "", "result": {"youngs_modulus": 5e8}}
+        killed = {"exit_code": -9, "message": "ended by signal 9", "result": {}}
+        return [solved, *[self.others or killed] * (len(wanted) - 1)]
+
+
+DECIDING = """
+[compressive_strength]
+value = 120e6
+lower = 110e6
+decides = true
+source = "s"
+[youngs_modulus]
+value = {value}
+lower = {lower}
+decides = true
+source = "s"
+"""
+
+
+@pytest.mark.parametrize(
+    ("lower", "peak", "size", "verdict", "says"),
+    [
+        (1e4, "lost", "small", "not known", "runs = 9 of 10 failed"),
+        (1e9, "lost", "small", "not met", "measures = youngs_modulus, not met; runs = 9 of 10"),
+        (1e4, 120e6, "small", "met", ""),
+        (1e4, None, "small", "not known", ""),
+        (1e4, None, "full", "not known", "measures = compressive_strength, not known; see"),
+        (
+            *(1e9, None, "full", "not met"),
+            "measures = youngs_modulus, not met; measures = compressive_strength, not known; see",
+        ),
+    ],
+)
+def test_exit_code_and_box_tell_what_is_not_met_not_known_or_failed(
+    tmp_path, monkeypatch, capsys, lower, peak, size, verdict, says
 ):
-    """The runs are made up: only the direct solve has a result."""
-
-    class Pool:
-        def __init__(self, *_, **__):
-            pass
-
-        def __enter__(self):
-            return self
-
-        def __exit__(self, *_):
-            pass
-
-        def run(self, wanted, progress=None):
-            solved = {"exit_code": 0, "message": "", "result": {"youngs_modulus": 5e8}}
-            lost = {"exit_code": -9, "message": "ended by signal 9", "result": {}}
-            return [solved, *[lost] * (len(wanted) - 1)]
-
-    monkeypatch.setattr(card, "Pool", Pool)
-    text = f"""
-    [compressive_strength]
-    value = 120e6
-    lower = 110e6
-    decides = true
-    source = "s"
-    [youngs_modulus]
-    value = {max(2.0 * lower, 1e5)}
-    lower = {max(lower, 1e4)}
-    decides = true
-    source = "s"
-    """
+    pool = type("_Pool", (MadeUp,), {})
+    if peak != "lost":
+        pool.others = {"exit_code": 0, "message": "", "result": {"peak_stress": peak, "any": 1.0}}
+    monkeypatch.setattr(card, "Pool", pool)
     file = tmp_path / "mine.toml"
-    file.write_text(text)
+    file.write_text(DECIDING.format(value=2.0 * lower, lower=lower))
     asked = ["scorecard", "augig-calibrated", "--rock", str(file), "--seeds", "41", "--quiet"]
-    assert cli.main([*asked, "--out", str(tmp_path / "card")]) == code
+    code = cli.main([*asked, "--size", size, "--out", str(tmp_path / "card")])
     said = capsys.readouterr()
-    assert "failed: seed 41 compressed: ended by signal 9" in said.out
-    assert "10 runs, 0 of them finished; about 390 grains" in said.out
-    if code:
-        assert said.err.startswith("flexpm: measures = youngs_modulus, not met")
+    assert code == (3 if says else 0)
+    assert said.err.startswith(f"flexpm: {says}") if says else not said.err
+    assert ("failed: seed 41 compressed: ended by signal 9" in said.out) == (peak == "lost")
+    assert "10 runs, 0 of them finished; about" in said.out
+    page = (tmp_path / "card" / "report.html").read_text()
+    box = page[page.index('<section id="status"') :].partition("</section>")[0]
+    assert f"<h2>{verdict}</h2>" in box
+    assert ("are not known: compressive strength." in box) == (peak != 120e6)
+    assert ("are not met: Young&#39;s modulus." in box) == (lower == 1e9)
+
+
+def test_material_that_is_removed_during_the_runs_loses_no_results(tmp_path, monkeypatch):
+    file = tmp_path / "mine.toml"
+    preset = files("flexpm.materials") / "presets" / "augig-calibrated.toml"
+    file.write_text(preset.read_text())
+
+    class Removing(MadeUp):
+        def run(self, wanted, progress=None):
+            file.unlink()
+            return super().run(wanted, progress)
+
+    monkeypatch.setattr(card, "Pool", Removing)
+    found = card.scorecard(file, tmp_path / "card", rock="augig", seeds=[41], report=False)
+    assert found.row("youngs_modulus").mean == 5e8 and len(found.lost) == 9
+    assert (tmp_path / "card" / output.FILE).is_file()
+    refusal("did you mean compressive_strength", found.row, "compresive_strength")
 
 
 def test_a_folder_with_other_results_is_refused(tmp_path):

@@ -3,14 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypedDict, Unpack
 
+from ...errors import InputError
 from ...files import FolderLock, Table, output_folder
 from ...materials.material import load as load_material
 from ...progress import Progress
+from ...require import quoted, require_known, require_whole
 from ...runs.output import refuse_other_kind
 from .. import jobs
 from ..pool import Pool
@@ -18,7 +20,7 @@ from ..tables import table as runs_table
 from ..tables import write_table
 from . import output, rock, runs
 from .runs import Plan, Size
-from .verdict import Row, judge_all
+from .verdict import NOT_KNOWN, NOT_MET, Row, judge_all
 
 #: Seeds that no calibration of a preset has used.
 SEEDS = (41, 42, 43, 44, 45)
@@ -47,7 +49,7 @@ class Scorecard:
         plan: What was asked for.
         rows: A row for each measure.
         pairs: Shares of cracks in compression by pair of minerals; empty without minerals.
-        lost: Runs that failed without a result: seed, name and message of each.
+        lost: Runs that diverged or failed without a result: seed, name and message of each.
     """
 
     plan: Plan
@@ -56,13 +58,34 @@ class Scorecard:
     lost: Sequence[str] = ()
 
     @property
+    def runs(self) -> int:
+        """Number of runs."""
+        return sum(map(len, self.plan.jobs.values()))
+
+    @property
+    def missed(self) -> list[str]:
+        """Names of the measures that decide and are not met."""
+        return output.names_of(self.rows, NOT_MET)
+
+    @property
+    def unknown(self) -> list[str]:
+        """Names of the measures that decide and are not known."""
+        return output.names_of(self.rows, NOT_KNOWN)
+
+    @property
     def failed(self) -> list[str]:
         """Names of the measures that decide and are not met, or not known with full specimens."""
         return output.failed(self.rows, full=self.plan.size.full)
 
     def row(self, measure: str) -> Row:
-        """Return the row of a measure by its name."""
-        return next(one for one in self.rows if one.measure.name == measure)
+        """Return the row of a measure by its name.
+
+        Raises:
+            InputError: for an unknown name.
+        """
+        rows = {one.measure.name: one for one in self.rows}
+        require_known("scorecard: measure", measure, [*rows])
+        return rows[measure]
 
     def __str__(self) -> str:
         return output.table(self.plan, self.rows, self.pairs)
@@ -94,7 +117,8 @@ def scorecard(
             - ``workers``, ``scheduler``, ``cluster``: as for a study.
 
     Returns:
-        ``rows`` with ``mean``, ``verdict`` and ``reasons``, ``row(name)``, and ``failed``.
+        ``rows`` with ``mean``, ``verdict`` and ``reasons``, ``row(name)``; the names of measures
+        that decide and are ``missed`` or ``unknown``, ``failed``, and the runs that are ``lost``.
 
     Raises:
         InputError: for an unknown material, rock or option, or a folder with other results.
@@ -103,7 +127,7 @@ def scorecard(
         A material file beside Augig granite::
 
             found = flexpm.scorecard("my-rock/my-rock.toml", "card", rock="augig", seeds=[41])
-            print(found.row("compressive_strength").mean, found.failed)
+            print(found.row("compressive_strength").mean, found.missed, found.unknown)
     """
     made = plan_of(material, options)
     folder = output_folder(out)
@@ -121,23 +145,37 @@ def plan_of(material: Path | str, options: ScorecardOptions) -> Plan:
     Raises:
         InputError: for a value that is wrong.
     """
-    loaded, seeds = load_material(material), options.get("seeds")
+    for name in options:
+        require_known("scorecard: option", name, [*ScorecardOptions.__annotations__])
+    loaded = load_material(material)
     made = runs.plan(
         loaded,
         str(material),
         model=options.get("model"),
         shape=options.get("shape"),
-        seeds=SEEDS if seeds is None else tuple(seeds),
+        seeds=_seeds(options.get("seeds")),
         size=options.get("size", "small"),
         rock=rock.load(options.get("rock"), loaded.name),
     )
-    made.jobs()  # refuses what no run could do
+    _ = made.jobs  # refuses what no run could do
     return made
+
+
+def _seeds(given: object) -> tuple[int, ...]:
+    """Seeds as whole numbers; None: the usual ones."""
+    if given is None:
+        return SEEDS
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        raise InputError(
+            f"scorecard: seeds = {quoted(given)}, must be whole numbers in a list; put them in "
+            "brackets"
+        )
+    return tuple(require_whole("scorecard: seeds", one) for one in given)
 
 
 def foresight(plan: Plan, folder: Path) -> str:
     """Say how many runs a scorecard has, how many are finished, and how large they are."""
-    wanted = [job for of_packing in plan.jobs().values() for job in of_packing.values()]
+    wanted = [job for of_packing in plan.jobs.values() for job in of_packing.values()]
     done = sum(jobs.finished(job, folder / "runs") is not None for job in wanted)
     grains = float(f"{plan.grains:.2g}")
     return (
@@ -154,7 +192,7 @@ def carry_out(plan: Plan, folder: Path, options: ScorecardOptions) -> Scorecard:
         folder: Folder of the scorecard, which exists.
         options: Keywords of `scorecard`.
     """
-    by_seed = plan.jobs()
+    by_seed = plan.jobs
     wanted = [job for of_packing in by_seed.values() for job in of_packing.values()]
     place = folder / "runs"
     chosen = {name: options.get(name) for name in ("workers", "scheduler", "cluster")}
@@ -178,6 +216,6 @@ def carry_out(plan: Plan, folder: Path, options: ScorecardOptions) -> Scorecard:
         f"seed {seed} {name}: {' '.join(one.message.split())}"
         for seed, of_packing in zip(by_seed, packings, strict=True)
         for name, one in of_packing.items()
-        if one.result is None and one.message
+        if one.message and (one.result is None or one.result.status == "diverged")
     ]
     return Scorecard(plan, rows, pairs, lost)

@@ -12,9 +12,9 @@ from functools import partial
 
 from ...errors import InputError
 from ...files import Table
+from ...kinds.registry import kind_of
 from ...require import POSITIVE, Bounds
-from ...results import descent, strength
-from ...results.doubts import LARGEST_OVERLAP
+from ...results import descent, doubts, strength
 from ...results.result import Result
 
 #: Runs of a packing by their names; the roles of their tests are in ``kinds``.
@@ -27,6 +27,8 @@ PRESSURES = {3: 0.03, 10: 0.1, 30: 0.3, 50: 0.5}
 SECANTS = (25, 50, 90)
 #: Pressures of an envelope by its name: from 0 up to these percentages.
 ENVELOPES = {"low": (3,), "wide": (3, 10)}
+#: Reasons of numbers that the results do not yield.
+ENDS_EARLY, NO_CRITERION, NO_ANGLE = "ends early", "no criterion fits", "D <= 0"
 
 
 def confined(percent: int) -> str:
@@ -74,7 +76,7 @@ class Measure:
     words: str
     unit: str  #: ``Pa``, ``Pa m^0.5``, ``degrees`` or ``-``
     runs: tuple[str, ...]  #: whose status decides whether the measure counts
-    of: Callable[[Runs, bool], float | None]  #: runs, and whether they are 3D
+    of: Callable[[Runs, bool], float | str | None]  #: runs, and whether 3D; a text: a reason
     about: str  #: for the manual
     bounds: Bounds = POSITIVE  #: of values in a rock file
     needs_peak: bool = True  #: does not count for a run without a peak
@@ -92,11 +94,12 @@ class Measure:
         used = [runs.get(name, Ended(message="missing")) for name in self.runs]
         if any(one.message and one.result is None for one in used):
             return Value(None, "run failed")
-        number = self.of(runs, solid)
+        found = self.of(runs, solid)
+        number, missing = (None, found) if isinstance(found, str) else (found, "")
         results = [one.result for one in used if one.result is not None]
         for reason in self._flaws(results, solid=solid):
             return Value(number, reason)
-        return Value(number, "" if number is not None else self._missing(results))
+        return Value(number, "" if number is not None else missing or self._missing(results))
 
     def _flaws(self, results: Sequence[Result], *, solid: bool) -> Iterator[str]:
         """Reasons why a number of these results does not count."""
@@ -108,17 +111,19 @@ class Measure:
         if "not_quasistatic" in statuses:
             yield "not quasi-static"
         overlaps = [one.largest_overlap or 0.0 for one in results]
-        if solid and self.after_peak and max(overlaps, default=0.0) > LARGEST_OVERLAP:
+        if solid and self.after_peak and max(overlaps, default=0.0) > doubts.LARGEST_OVERLAP:
             yield "overlap"
+        for one in results:
+            splits = kind_of(one.test).splits
+            if doubts.of_first_cracks(one.first_crack_distance, None, None, notched=not splits):
+                yield f"first cracks {'at the plates' if splits else 'far from the notch'}"
 
     def _missing(self, results: Sequence[Result]) -> str:
         """Reason of a missing number."""
         for one in results:
             if self.reason_key and (why := (one.null_reasons or {}).get(self.reason_key)):
                 return str(why)
-        if any(one.peak_stress is None for one in results):
-            return "no peak"
-        return "ends early" if self.after_peak else "not reached"
+        return ENDS_EARLY if self.after_peak else "not reached"
 
 
 def _result(runs: Runs, name: str) -> Result | None:
@@ -165,22 +170,22 @@ def _peaks(percents: Sequence[int], runs: Runs) -> tuple[list[float], list[float
     return (pressures, known) if len(known) == len(peaks) else None
 
 
-def _line(name: str, percents: Sequence[int], runs: Runs, _: bool) -> float | None:
+def _line(name: str, percents: Sequence[int], runs: Runs, _: bool) -> float | str | None:
     """Return a constant of the line of Mohr and Coulomb through the peaks."""
     found = _peaks(percents, runs)
     try:
         line = None if found is None else strength.mohr_coulomb(*found)
     except InputError:  # peaks that do not rise
-        return None
+        return NO_CRITERION
     return None if line is None else float(getattr(line, name))
 
 
-def _hoek_brown(runs: Runs, _: bool) -> float | None:
+def _hoek_brown(runs: Runs, _: bool) -> float | str | None:
     found = _peaks(tuple(PRESSURES), runs)
     try:
         return None if found is None else strength.hoek_brown(*found).m_i
     except InputError:
-        return None
+        return NO_CRITERION
 
 
 def _peak_ratio(percent: int, runs: Runs, _: bool) -> float | None:
@@ -197,9 +202,11 @@ def _dilation(percent: int, runs: Runs, solid: bool) -> float | None:
     return None if result is None else descent.dilation_after_peak(result.curve, solid=solid)
 
 
-def _dilation_angle(percent: int, runs: Runs, solid: bool) -> float | None:
+def _dilation_angle(percent: int, runs: Runs, solid: bool) -> float | str | None:
     found = _dilation(percent, runs, solid)
-    return None if found is None or found <= 0.0 else descent.dilation_angle(found)
+    if found is None:
+        return None
+    return descent.dilation_angle(found) if found > 0.0 else NO_ANGLE
 
 
 _STRESS = Bounds(at_least=1e4, at_most=1e12)

@@ -110,7 +110,7 @@ def write(folder: Path, plan: Plan, rows: Sequence[Row], pairs: Sequence[Table])
     write_text(folder / TABLE, _csv(rows))
     jobs = {
         str(seed): {name: job.folder for name, job in runs.items()}
-        for seed, runs in plan.jobs().items()
+        for seed, runs in plan.jobs.items()
     }
     content = {
         "flexpm": __version__,
@@ -118,6 +118,7 @@ def write(folder: Path, plan: Plan, rows: Sequence[Row], pairs: Sequence[Table])
         "size": {"name": plan.size.name, "full": plan.size.full, "rate": plan.size.rate},
         "seeds": list(plan.seeds),
         "rock": {name: getattr(plan.rock, name) for name in ("name", "note", "source")},
+        **{"not_met": names_of(rows, NOT_MET), "not_known": names_of(rows, NOT_KNOWN)},
         "failed": failed(rows, full=plan.size.full),
         "rows": [row.as_dict() for row in rows],
         "table": [list(line) for line in lines(rows)],
@@ -125,6 +126,11 @@ def write(folder: Path, plan: Plan, rows: Sequence[Row], pairs: Sequence[Table])
         "runs": jobs,
     }
     write_text(folder / FILE, json_text(content))
+
+
+def names_of(rows: Sequence[Row], verdict: str) -> list[str]:
+    """Return the names of the measures that decide and have a verdict."""
+    return [row.measure.name for row in rows if row.decides and row.verdict == verdict]
 
 
 def failed(rows: Sequence[Row], *, full: bool) -> list[str]:

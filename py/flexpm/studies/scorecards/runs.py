@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
 from ...dimensions import is_solid
@@ -119,8 +120,12 @@ class Plan:
         """Whether the specimens are 3D."""
         return is_solid(self.shape)
 
+    @cached_property
     def jobs(self) -> dict[int, dict[str, Job]]:
-        """Return the runs of each packing, by seed and by the name of the run."""
+        """Runs of each packing, by seed and by the name of the run.
+
+        They are made once, because they read the material's file, which may change meanwhile.
+        """
         base = Path.cwd()
         return {
             seed: {name: jobs.make(asked, base) for name, asked in self._asked(seed)}
@@ -173,7 +178,7 @@ class Plan:
     @property
     def grains(self) -> int:
         """Approximate number of grains of the compressed specimen, by its size and diameters."""
-        spec = next(iter(self.jobs().values()))[measures.COMPRESSED].spec.specimen
+        spec = next(iter(self.jobs.values()))[measures.COMPRESSED].spec.specimen
         low, high = spec.diameters or (1.0, 1.0)
         filled = 1.0 - (spec.porosity or 0.0)
         if self.solid:

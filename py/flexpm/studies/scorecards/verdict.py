@@ -39,6 +39,11 @@ class Row:
     verdict: str
     reasons: tuple[str, ...] = ()  #: why it is not known
 
+    @property
+    def decides(self) -> bool:
+        """Whether the verdict on the scorecard depends on the row."""
+        return self.entry.decides and self.entry.value is not None
+
     def fails(self, *, full: bool) -> bool:
         """Whether the scorecard fails by this row.
 
@@ -47,8 +52,7 @@ class Row:
         Args:
             full: Whether the specimens are full.
         """
-        decides = self.entry.decides and self.entry.value is not None
-        return decides and (self.verdict == NOT_MET or (full and self.verdict == NOT_KNOWN))
+        return self.decides and (self.verdict == NOT_MET or (full and self.verdict == NOT_KNOWN))
 
     def as_dict(self) -> Table:
         """Return the row for scorecard.json."""
@@ -82,9 +86,9 @@ def judge(measure: Measure, values: Sequence[Value], entry: Entry | None, *, ful
     mean = float(np.mean(shown)) if shown else None
     error = float(np.std(shown, ddof=1)) / math.sqrt(len(shown)) if len(shown) > 1 else None
     least = LEAST_SHARE * len(values) - _ROUNDING
-    reasons = []
+    reasons = list[str]()
     if len(counted) < least:
-        reasons.append(_most_common(values))
+        reasons += _reasons(values)
     if measure.needs_size and not full:
         reasons.append(SIZE)
     if entry.value is None:
@@ -116,10 +120,11 @@ def judge_all(
     ]
 
 
-def _most_common(values: Sequence[Value]) -> str:
-    """Return the most frequent reason of packings that do not count, and their number."""
+def _reasons(values: Sequence[Value]) -> list[str]:
+    """Return the reasons of packings that do not count, the most frequent first, with numbers."""
     reasons = Counter(one.reason for one in values if one.reason)
     if not reasons:
-        return "no packings"
-    reason, count = reasons.most_common(1)[0]
-    return reason if count == len(values) else f"{reason} in {count} of {len(values)}"
+        return ["no packings"]
+    if len(reasons) == 1 and reasons.total() == len(values):
+        return [*reasons]
+    return [f"{reason} in {count} of {len(values)}" for reason, count in reasons.most_common()]
