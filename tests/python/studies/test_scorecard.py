@@ -7,7 +7,6 @@ import csv
 import json
 import math
 import os
-import re
 import signal
 from importlib.resources import files
 
@@ -326,7 +325,7 @@ def plan_of(material="augig-calibrated", **options):
     ],
 )
 def test_wrong_options_are_refused(options, says):
-    refusal(re.escape(says), lambda: plan_of(**options))
+    refusal(says, lambda: plan_of(**options))
 
 
 def test_the_command_refuses_in_one_line(capsys):
@@ -523,13 +522,13 @@ card.scorecard({material!r}, {out!r}, workers=1, **{asked})
 """
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("shape", ["rectangle", "box"])
+@pytest.mark.parametrize("shape", ["rectangle", pytest.param("box", marks=pytest.mark.long)])
 def test_a_killed_scorecard_does_what_is_missing_and_then_nothing(
     tmp_path, monkeypatch, package_parent, shape
 ):
     material = "augig3d-calibrated-rigid" if shape == "box" else "augig-calibrated-rigid"
-    pressures = {3: 0.03}  # the others only take time
+    pressures = {3: 0.03} if shape == "box" else {}  # the others only take time
+    missing = 4 + len(pressures)
     monkeypatch.setattr(measures, "PRESSURES", pressures)
     asked = {"shape": shape, "seeds": [41], "size": TINY, "model": "rigid", "report": False}
     text = KILLED.format(pressures=pressures, material=material, out=str(tmp_path), asked=asked)
@@ -541,12 +540,12 @@ def test_a_killed_scorecard_does_what_is_missing_and_then_nothing(
     wait_for(lambda: all(is_free(folder) for folder in tmp_path.glob("runs/*")))
     begun = started(monkeypatch)
     first = card.scorecard(material, tmp_path, **asked)
-    assert len(begun) == 5 and not done & {*begun}  # the missing ones, each once
+    assert len(begun) == missing and not done & {*begun}  # the missing ones, each once
     for name in ("youngs_modulus", "compressive_strength", "direct_tensile_strength"):
         assert first.row(name).mean > 0.0, first.row(name)
     whole = (tmp_path / output.FILE).read_bytes()
     assert card.scorecard(material, tmp_path, **asked).rows == first.rows
-    assert len(begun) == 5  # nothing again
+    assert len(begun) == missing  # nothing again
     assert (tmp_path / output.FILE).read_bytes() == whole
 
 
