@@ -26,7 +26,8 @@ from flexpm.results.result import Result
 from flexpm.studies import pages
 from flexpm.studies.scorecards import card, measures, output, runs
 from flexpm.studies.scorecards.measures import MEASURES, Ended, Measure, Value
-from flexpm.studies.scorecards.rock import Band, Entry
+from flexpm.studies.scorecards.rock import Band, Entry, Rock
+from flexpm.studies.scorecards.rock import load as load_rock
 from flexpm.studies.scorecards.verdict import MET, NOT_KNOWN, NOT_MET, judge, judge_all
 
 STRENGTH = MEASURES["compressive_strength"]
@@ -354,6 +355,27 @@ def test_runs_follow_the_dimension_of_the_material(material, shape, tests):
     assert jaws == ([0.0225] if plan.solid else [None])
     assert 300 < plan.grains < 500
     assert plan_of(material, size="full").jobs[41]["compressed"].inputs["rate"] == 1.0
+
+
+def test_runs_of_soft_rocks_reach_larger_strains():
+    def ends(rock):
+        asked = runs.plan(
+            materials.load("augig-calibrated"),
+            *("augig-calibrated",),
+            **{"model": None, "shape": None, "seeds": [41], "size": "small", "rock": rock},
+        )
+        return [
+            one.inputs["max_strain"]
+            for one in asked.jobs[41].values()
+            if "max_strain" in one.inputs
+        ]
+
+    strong, young = Entry(60e6, None, Band(50e6)), Entry(3e9, None, Band(2e9))
+    soft = Rock("soft", (), "", "", {"compressive_strength": strong, "youngs_modulus": young})
+    unknown = Rock("unknown", (), "", "", {"compressive_strength": strong})
+    usual = [0.015, 0.025, 0.03, 0.03]
+    assert ends(load_rock("augig", "any")) == ends(unknown) == usual
+    assert ends(soft) == pytest.approx([0.06, 0.1, 0.12, 0.12])
 
 
 def test_each_role_has_one_test_in_each_dimension():

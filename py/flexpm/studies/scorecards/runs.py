@@ -25,18 +25,20 @@ from .. import jobs
 from ..jobs import Job
 from . import measures
 from .measures import Ended, Runs
-from .rock import Rock
+from .rock import Entry, Rock
 
 #: Shapes of the compressed specimens.
 SHAPES = ("rectangle", "box", "cylinder")
 _MODELS = ("flexible", "rigid")
-#: Largest axial strain of a run under a confining pressure [-], by the percentage of the pressure.
-MAX_STRAINS = {3: 0.015, 10: 0.025, 30: 0.03, 50: 0.03}
+#: Largest axial strain of a run under a confining pressure [-], and the least ratio of it to the
+#: compressive strength over Young's modulus of the rock, by the percentage of the pressure: soft
+#: rocks have their peaks at larger strains.
+MAX_STRAINS = {3: (0.015, 3.0), 10: (0.025, 5.0), 30: (0.03, 6.0), 50: (0.03, 6.0)}
 #: Part of its peak below which the deviator of such a run never falls: it goes to its strain [-].
 _NO_STOP = 0.01
 #: Radius of jaws over the radius of the disc, as suggested by the ISRM [-].
 _JAWS = 1.5
-#: Digits of a confining pressure.
+#: Digits of a confining pressure and of a largest strain.
 _DIGITS = 4
 _LATERAL = "lateral_strain"
 
@@ -148,9 +150,18 @@ class Plan:
         for percent, share in measures.PRESSURES.items():
             pressure = float(f"{share * self.rock.compressive_strength:.{_DIGITS}g}")
             # until its largest strain, so that the descent is recorded
-            ends = {"max_strain": MAX_STRAINS[percent], "stop_ratio": _NO_STOP}
+            ends = {"max_strain": self._end(percent), "stop_ratio": _NO_STOP}
             inputs = self._inputs("confined", seed) | {"confinement": pressure, **ends}
             yield measures.confined(percent), inputs
+
+    def _end(self, percent: int) -> float:
+        """Return the largest axial strain of the run under a percentage of the strength [-]."""
+        strain, ratio = MAX_STRAINS[percent]
+        young = self.rock.entries.get("youngs_modulus", Entry()).value
+        if young is None:
+            return strain
+        elastic = self.rock.compressive_strength / young
+        return max(strain, float(f"{ratio * elastic:.{_DIGITS}g}"))
 
     def _inputs(self, role: str, seed: int) -> Table:
         """Return the inputs of a test on the specimen that it takes."""
