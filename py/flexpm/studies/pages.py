@@ -50,6 +50,8 @@ from .scorecards.verdict import MET, NOT_KNOWN, NOT_MET
 _MOST_MAPS = 6
 #: Runs whose curves a page shows, points of each, and rows of a table.
 _MOST_CURVES, _POINTS, _MOST_ROWS = 30, 400, 300
+#: Titles of charts by test, where they are not its name.
+_TITLES = {"scb": "SCB"}
 #: Columns of a run that stand in each table of runs.
 _MORE = ("fragments", "status")
 
@@ -239,7 +241,7 @@ def _scorecard(folder: Path) -> Page:
         charts=_curves_by_test(found),
         tables=[*tables, *_about(found)],
         pictures=_pictures(folder, (BARS,)),
-        commands=[("A run, by the name of its folder:", _again([*known][:1]))],
+        commands=[("A run, by the name of its folder:", _again([place])) for place in [*known][:1]],
         cite=cite(__version__),
     )
 
@@ -282,7 +284,10 @@ def _curves_by_test(found: Mapping[str, Result]) -> list[Chart]:
         title = "controlled compression" if controlled else cores
         groups.setdefault(title, {})[name] = one
     return [
-        chart._replace(name=f"stress{number}", title=title.capitalize())
+        chart._replace(
+            name=f"stress{number}",
+            title=f"{_TITLES.get(title, title.capitalize())}{_left_out(len(group))}",
+        )
         for number, (title, group) in enumerate(groups.items())
         for chart in _curves(group)
     ]
@@ -421,7 +426,13 @@ def _curves(found: Mapping[str, Result]) -> list[Chart]:
         return []
     names = words_of_result(next(iter(found.values())))
     axes = names.x.label, names.y.label
-    return [Chart("stress", names.title(), *axes, lines, shared=False)]
+    title = f"{names.title()}{_left_out(len(found))}"
+    return [Chart("stress", title, *axes, lines, shared=False)]
+
+
+def _left_out(runs: int) -> str:
+    """Part of the title of a chart that does not draw all runs."""
+    return f", first {_MOST_CURVES} of {runs} runs" if runs > _MOST_CURVES else ""
 
 
 def _about(found: Mapping[str, Result]) -> list[Rows]:

@@ -8,9 +8,11 @@ import math
 import pytest
 from refusals import refusal
 
+from flexpm.materials.references import reference_of
 from flexpm.results import strength
 from flexpm.studies.scorecards import measures, rock
 
+AUGIG = reference_of("augig")
 GOOD = """
 [rock]
 name = "known"
@@ -44,17 +46,18 @@ def test_rocks_that_are_included_can_be_read(name):
 def test_the_papers_rock_follows_from_its_table():
     found = rock.load("augig", "any").entries
     of_paper = {
-        "youngs_modulus": 25.8e9,
-        "poissons_ratio": 0.23,
-        "compressive_strength": 122.1e6,
-        "indirect_tensile_strength": 8.8e6,
-        "cohesion_low": 21e6,
-        "friction_angle_low": 53.0,
+        "youngs_modulus": AUGIG.youngs_modulus,
+        "poissons_ratio": AUGIG.poissons_ratio,
+        "compressive_strength": AUGIG.compressive_strength,
+        "indirect_tensile_strength": AUGIG.brazilian_strength,
+        "cohesion_low": AUGIG.cohesion,
+        "friction_angle_low": AUGIG.friction_angle,
     }
     assert {name: found[name].value for name in of_paper} == of_paper
     assert all(found[name].decides for name in of_paper)
     # both readings of 53 degrees, and the peaks that follow
-    strength_of, slope = 122.1e6, math.tan(math.radians(45 + 53 / 2)) ** 2
+    strength_of = AUGIG.compressive_strength
+    slope = math.tan(math.radians(45 + AUGIG.friction_angle / 2)) ** 2
     readings = [
         strength.hoek_brown([0.0, top], [strength_of, strength_of + slope * top])
         for top in (4e6, 12e6)
@@ -71,6 +74,10 @@ def test_the_papers_rock_follows_from_its_table():
 def test_a_preset_has_the_rock_of_its_name():
     for name in ("augig-calibrated", "augig3d-calibrated-rigid"):
         assert rock.load(None, name).name == "Augig granite"
+    for name in ("red-bohus", "red-bohus-calibrated", "red-bohus3d-calibrated"):
+        assert rock.load(None, name).name == "Red Bohus granite"
+    for name in ("augig3", "red", "red-bohus2", "augigneiss-calibrated"):
+        refusal("named after none", rock.load, None, name)
     assert "give a rock or its file" in refusal("named after none", rock.load, None, "mine")
     assert "did you mean augig?" in refusal("unknown", rock.load, "augg", "mine")
 

@@ -405,11 +405,22 @@ def test_files_have_all_rows_and_the_page_is_made_from_them(tmp_path, monkeypatc
     )
     page = pages.write(tmp_path).read_text()
     assert "Cracks by pair of minerals" in page and "data:image/" in page
+    assert "How to repeat" not in page  # no run has a result
     assert all(one.words in page for one in MEASURES.values() if "'" not in one.words)
     text = output.table(plan, rows, pairs)
     assert "17 to 23 (25 to 33)" in text and " (0.4 to 0.6)" in text
     assert len(text.splitlines()) == len(MEASURES) + 5
     assert "no value" in text
+
+
+def test_charts_name_their_tests_and_say_which_runs_they_leave_out(monkeypatch):
+    curve = curve_through((0.0, 0.0), (0.01, 1e6))
+    found = {"a": ended("scb", curve), "b": ended("tension", curve), "c": ended("tension", curve)}
+    results = {name: one.result for name, one in found.items()}
+    assert [one.title for one in pages._curves_by_test(results)] == ["SCB", "Tension"]
+    monkeypatch.setattr(pages, "_MOST_CURVES", 1)
+    titles = ["SCB", "Tension, first 1 of 2 runs"]
+    assert [one.title for one in pages._curves_by_test(results)] == titles
 
 
 class MadeUp:

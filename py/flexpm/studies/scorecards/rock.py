@@ -7,7 +7,7 @@ A file has a table ``[rock]``, and a table for each measure with its value, its 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from ...errors import InputError
@@ -75,7 +75,7 @@ class Rock:
     """A rock file."""
 
     name: str
-    presets: tuple[str, ...]  #: first parts of the names of presets that stand for the rock
+    presets: tuple[str, ...]  #: beginnings of the names of materials of the rock
     note: str
     source: str
     entries: Mapping[str, Entry]
@@ -86,10 +86,6 @@ class Rock:
         value = self.entries[_STRENGTH].value
         assert value is not None  # the file was checked
         return value
-
-    def as_dict(self) -> Table:
-        """Return the content for scorecard.json."""
-        return asdict(self)
 
 
 def names() -> list[str]:
@@ -110,10 +106,9 @@ def load(rock: str | Path | None, material: str) -> Rock:
     """
     known = names()
     if rock is None:
-        of_preset = material.partition("-")[0]
         for name in known:
             found = read(_ROCKS / f"{name}.toml")
-            if of_preset in found.presets:
+            if any(_is_named_after(material, one) for one in (name, *found.presets)):
                 return found
         raise InputError(
             f"rock is missing, and material {quoted(material)} is named after none of "
@@ -127,6 +122,11 @@ def load(rock: str | Path | None, material: str) -> Rock:
             f"{', '.join(known)}, or give a .toml file"
         )
     return read(_ROCKS / f"{rock}.toml")
+
+
+def _is_named_after(material: str, preset: str) -> bool:
+    """Whether a material has a name, or one that begins with it and a hyphen."""
+    return material == preset or material.startswith(f"{preset}-")
 
 
 def read(path: Path) -> Rock:
