@@ -123,6 +123,7 @@ class TestKind:
     no_constants: tuple[str, ...] = ()  #: slopes of its record that are none of the rock
     #: What it measures beside its peak: keys of result.json, from the record and the peak stress.
     measure: Callable[[Frame, Columns, float | None], Mapping[str, float | None]] | None = None
+    title: str = ""  #: its name in headings; empty: its name with a capital
     words: Words = field(default_factory=Words)
     rows: tuple[str, ...] = ()  #: of the common rows of a table of its outcome; none: all
     #: What a calibration can meet, by its own names: a key of result.json, or two of a quotient.

@@ -50,8 +50,6 @@ from .scorecards.verdict import MET, NOT_KNOWN, NOT_MET
 _MOST_MAPS = 6
 #: Runs whose curves a page shows, points of each, and rows of a table.
 _MOST_CURVES, _POINTS, _MOST_ROWS = 30, 400, 300
-#: Titles of charts by test, where they are not its name.
-_TITLES = {"scb": "SCB"}
 #: Columns of a run that stand in each table of runs.
 _MORE = ("fragments", "status")
 
@@ -280,14 +278,12 @@ def _curves_by_test(found: Mapping[str, Result]) -> list[Chart]:
     groups: dict[str, dict[str, Result]] = {}
     for name, one in found.items():
         controlled = (one.inputs or {}).get("control") is not None
-        cores = "compression" if test_of(one.test).is_core else one.test
-        title = "controlled compression" if controlled else cores
+        kind = test_of(one.test)
+        cores = "Compression" if kind.is_core else kind.title or one.test.capitalize()
+        title = "Controlled compression" if controlled else cores
         groups.setdefault(title, {})[name] = one
     return [
-        chart._replace(
-            name=f"stress{number}",
-            title=f"{_TITLES.get(title, title.capitalize())}{_left_out(len(group))}",
-        )
+        chart._replace(name=f"stress{number}", title=f"{title}{_left_out(len(group))}")
         for number, (title, group) in enumerate(groups.items())
         for chart in _curves(group)
     ]

@@ -93,6 +93,7 @@ KIND = TestKind(
     pulled=True,
     no_constants=("youngs_modulus",),
     measure=_measure,
+    title="SCB",
     words=bent.WORDS,
     calibrates={"scb_toughness": "fracture_toughness"},
     scored="notched",
