@@ -102,7 +102,7 @@ def test_the_listings_of_the_page_on_specimens():
 @pytest.mark.parametrize(
     ("page", "words"),
     [
-        ("doc/csv_tables.rst", "counts the cracks before it::"),
+        ("doc/csv_tables.rst", "counts the cracks up to the peak::"),
         ("doc/result_json.rst", "the test does not define::"),
     ],
 )
