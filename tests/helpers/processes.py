@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import subprocess
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,17 @@ HUNG = 600.0
 def captured(command: Sequence[Any], **options: Any) -> subprocess.CompletedProcess[str]:
     """Run a command to its end, with the options of `subprocess.run`; what it has printed."""
     return subprocess.run(command, capture_output=True, text=True, **options)
+
+
+@contextlib.contextmanager
+def running(command: Sequence[Any], **options: Any) -> Iterator[subprocess.Popen[str]]:
+    """A process with the options of `subprocess.Popen`, which is killed at the end of the block."""
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, **options)
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
 
 
 def wait_for(

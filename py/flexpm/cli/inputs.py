@@ -205,15 +205,20 @@ def tell_each_once(found: Mapping[str, Sequence[str]]) -> None:
         terminal.say(f"warning: {'all runs' if every else ', '.join(names)}: {line}")
 
 
-def tell_lengths(sizes: Mapping[str, float], diameters: Sequence[float] | None) -> None:
+def tell_lengths(sizes: Mapping[str, float], diameters: Sequence[float] | None) -> bool:
     """Warn of lengths that are probably in another unit.
 
     Args:
         sizes: Sizes of a specimen by their names [m].
         diameters: Diameters of its grains [m]; None if they are unknown.
+
+    Returns:
+        Whether there are such lengths.
     """
-    for line in doubts.of_lengths(sizes, diameters or ()):
+    lines = doubts.of_lengths(sizes, diameters or ())
+    for line in lines:
         _warn(line)
+    return bool(lines)
 
 
 def packed(kind: str, options: Table) -> SpecimenSource:
@@ -245,8 +250,9 @@ def made(
     load_yade()
     found = specimen.make(progress)
     if specimen.plain.diameters is None:  # those of a packing have been looked at
-        tell_lengths(found.extent, (found.mean_diameter,))
-        for run in runs:
+        odd = tell_lengths(found.extent, (found.mean_diameter,))
+        # pieces of grains beside joints are no grains
+        for run in runs if found.grains is None and not odd else ():
             of_run = (run.material, run.model, found.mean_diameter)
             for line in doubts.of_grain_size(*of_run, solid=run.is_solid):
                 _warn(line)

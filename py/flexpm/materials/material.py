@@ -489,7 +489,7 @@ def _assigned(assignments: object) -> Table:
     return dict(map(_parse_assignment, assignments))
 
 
-def _parse_assignment(text: object) -> tuple[str, float | str | bool]:
+def _parse_assignment(text: object) -> tuple[str, float | str | bool | None]:
     if not isinstance(text, str):
         raise InputError(f"set = {quoted(text)}, must read KEY=VALUE; for example young=30e9")
     key, equals, value = (part.strip() for part in text.partition("="))
@@ -501,9 +501,11 @@ def _parse_assignment(text: object) -> tuple[str, float | str | bool]:
     require_known("set", plain, list(UNITS))
     if plain in CHOICES:
         return key, value
+    if plain in _OPTIONAL and value == "none":
+        return key, None
     try:
         return key, float(value)
     except ValueError:
         raise InputError(
-            f"set {key} = {value!r} {UNITS[plain]}, must be a number; write it without unit"
+            f"set {key} = {value!r}, must be a number; write it without unit"
         ) from None

@@ -8,6 +8,7 @@ independent plates.
 
 from __future__ import annotations
 
+import functools
 import math
 from abc import abstractmethod
 from dataclasses import replace
@@ -138,8 +139,13 @@ class GrainRig(TestRig):
             ) from None
         if self._finds_weakest:
             return found
-        lowest = scattered_strength(self.built, pulled=self.tension or self.disc)
+        lowest = self._scattered_strength
         return found if lowest is None else replace(found, lowest_strength=lowest)
+
+    @functools.cached_property
+    def _scattered_strength(self) -> float | None:
+        """Strength of the weakest contacts if strengths scatter [Pa]; no step changes it."""
+        return scattered_strength(self.built, pulled=self.tension or self.disc)
 
     def _new_frame(self) -> wrapper.TestFrame:
         """Where the record's load and strains come from."""

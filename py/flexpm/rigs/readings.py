@@ -176,7 +176,8 @@ class RigReadings(ABC):
         """Reasons why the record is questionable, one line each.
 
         Causes are different load and reactions, a bad energy balance, numbers that are not finite,
-        and sizes that are probably in other units; for grains also a joint that deviates from its
+        sizes that are probably in other units, and given grains of another size than those of the
+        material's calibration; for grains also a joint that deviates from its
         line, a missed set point, and a gauge on an erased grain.
         """
         record = self.record
@@ -185,8 +186,10 @@ class RigReadings(ABC):
         specimen = self.built.specimen
         lines = [doubts.of_divergence(yade.O.iter, self._stop_reason)] if self.diverged else []
         plane = {} if self.solid else {"thickness": specimen.thickness}
-        lines += doubts.of_lengths({**specimen.extent, **plane}, (specimen.mean_diameter,))
-        if specimen.spec.diameters is None:  # inputs tell those of a packing
+        odd = doubts.of_lengths({**specimen.extent, **plane}, (specimen.mean_diameter,))
+        lines += odd
+        # inputs tell those of a packing, and pieces of grains beside joints are no grains
+        if specimen.spec.diameters is None and specimen.grains is None and not odd:
             material = described(self.built.material, self.built.name)
             lines += doubts.of_grain_size(
                 material, self.built.name, specimen.mean_diameter, solid=self.solid

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 import self_signals
-from processes import captured, wait_for
+from processes import captured, running, wait_for
 from sample_snapshot import read_vtu
 
 import flexpm
@@ -192,16 +192,11 @@ def test_a_folder_of_no_valid_name_is_refused(capsys):
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 @pytest.mark.parametrize("library", ["libyade", "_minieigenHP", "_flexpm.so", "_multiarray"])
 def test_a_signal_while_libraries_are_loaded_is_one_line(tmp_path, number, code, library):
-    process = subprocess.Popen(
-        [*COMMAND, *ENDLESS, "--out", str(tmp_path)],
-        env=ENVIRONMENT,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    maps = Path(f"/proc/{process.pid}/maps")
-    wait_for(lambda: library in maps.read_text(), process, each=0.001)
-    process.send_signal(number)
-    errors = process.communicate(timeout=600)[1]
+    with running([*COMMAND, *ENDLESS, "--out", str(tmp_path)], env=ENVIRONMENT) as process:
+        maps = Path(f"/proc/{process.pid}/maps")
+        wait_for(lambda: library in maps.read_text(), process, each=0.001)
+        process.send_signal(number)
+        errors = process.communicate(timeout=600)[1]
     assert process.returncode == code, errors
     one_line(errors)
 
@@ -222,16 +217,13 @@ def blocks(process: int, number: int) -> bool:
 @pytest.mark.parametrize("delay", [0.0, 0.01, 0.02, 0.04, 0.08])
 def test_a_signal_while_python_starts_is_one_line(tmp_path, number, code, delay, launcher):
     """From the first line of the launcher on, to which a busy machine takes its time."""
-    process = subprocess.Popen(
-        [*launcher, *ENDLESS, "--out", str(tmp_path)],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    wait_for(lambda: blocks(process.pid, number), process, each=0.001)
-    time.sleep(delay)  # noqa: TID251 - it still starts, or steps already
-    process.send_signal(number)
-    errors = process.communicate(timeout=600)[1]
+    steps = tmp_path / "specimen.vtu"  # there before the first step
+    command = [*launcher, *ENDLESS, "--out", str(tmp_path)]
+    with running(command, stdout=subprocess.PIPE) as process:
+        wait_for(lambda: blocks(process.pid, number) or steps.exists(), process, each=0.001)
+        time.sleep(delay)  # noqa: TID251 - it still starts, or steps already
+        process.send_signal(number)
+        errors = process.communicate(timeout=600)[1]
     assert process.returncode == code, errors
     one_line(errors)
 

@@ -196,6 +196,28 @@ def test_rigid_grains_change_the_modulus_in_proportion():
     assert "Young's modulus is about 2 times as large" in line
 
 
+def test_pieces_of_grains_beside_joints_are_no_smaller_grains():
+    """Of given grains, since a packing tells the diameters that it was made of."""
+    lines = {f"a{k}": [(-1e-3, 1e-3 * k), (0.013, 1e-3 * k + 5e-4)] for k in range(1, 24)}
+    cut = specimen(1.0, solid=False).with_joints(lines)
+    assert cut.mean_diameter < 3e-3 / doubts.LARGEST_SIZE_RATIO
+    law = {"normal_stiffness": 1e13, "shear_stiffness": 1e13, "friction": 0.5}
+    joints = dict.fromkeys(lines, law)
+    rock = dataclasses.replace(preset(False, "flexible"), joints=joints)
+    assert not any("mean diameter" in line for line in flexpm.PartRig(fresh(cut, rock)).warnings)
+
+
+def test_lengths_in_millimetres_are_told_once(tmp_path, capsys):
+    large = specimen(1024.0, solid=False)
+    rig = flexpm.PartRig(fresh(large, preset(False, "flexible")))
+    assert any("unusual" in line for line in rig.warnings)
+    assert not any("mean diameter" in line for line in rig.warnings)
+    large.save(tmp_path / "large.json")
+    assert cli.main(["elastic", "--specimen", str(tmp_path / "large.json"), "--quiet"]) == 0
+    told = capsys.readouterr()
+    assert "unusual" in told.out + told.err and "mean diameter of the grains" not in told.out
+
+
 def test_given_grains_are_told_by_rigs_and_commands(tmp_path, capsys):
     rock, fine = preset(False, "flexible"), specimen(0.5, solid=False)
     rig = flexpm.PartRig(fresh(fine, rock))

@@ -17,6 +17,7 @@ from flexpm import Specimen
 from flexpm.materials.material import Material, load
 from flexpm.materials.mixing import description, from_description, value_of
 from flexpm.models import assembly, solids
+from flexpm.rigs import grain_rig
 from flexpm.runs.run_spec import RunSpec, described
 from flexpm.specimens.space.any_spec import spec_type
 from flexpm.specimens.strength_map import contacts_of, factors_of, on_joints
@@ -186,6 +187,21 @@ def test_the_rate_follows_the_weakest_contacts(solid, model):
     assert least in factors * plain.strength / plain.strength
 
 
+def test_the_weakest_contacts_are_found_once_a_rig(monkeypatch):
+    found, find = [], grain_rig.scattered_strength
+
+    def counted(built, *, pulled):
+        found.append(find(built, pulled=pulled))
+        return found[-1]
+
+    monkeypatch.setattr(grain_rig, "scattered_strength", counted)
+    rig = flexpm.rig(fresh(packing(solid=False), rock(False, weibull=3.0)))
+    scales = {rig.scales().lowest_strength for _ in range(3)}
+    rig.stress_to(5e6)
+    rig.stress_to(1e6)
+    assert len(found) == 1 and scales == {found[0]}
+
+
 def test_the_rate_follows_the_weakest_contacts_of_minerals():
     specimen = packing(solid=False)
     minerals = [
@@ -202,6 +218,12 @@ def test_the_rate_follows_the_weakest_contacts_of_minerals():
     assert one.lowest_strength == 2e6
     assert 0.2 * 2e6 < two.lowest_strength < 2e6
     assert two.strength == one.strength
+
+
+def test_none_removes_the_key():
+    scattered = rock(weibull=3.0)
+    assert description(scattered.with_set(["weibull=none"])) == description(rock())
+    refusal("set cohesion = 'none', must be a number", scattered.with_set, ["cohesion=none"])
 
 
 @DIMENSIONS

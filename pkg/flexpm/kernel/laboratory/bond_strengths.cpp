@@ -16,13 +16,27 @@ template <class Before> void sort(std::vector<BondValue>& bonds, const Before& b
         [&](const BondValue& one, const BondValue& two) { return before(one.value, two.value); });
 }
 
-int largest_group(Groups& groups, int grains)
-{
-    std::vector<int> sizes(grains, 0);
-    for (int g = 0; g < grains; ++g)
-        ++sizes[groups.of(g)];
-    return *std::max_element(sizes.begin(), sizes.end());
-}
+/// Grains in groups, and the size of the largest group.
+class SizedGroups {
+public:
+    explicit SizedGroups(int grains) : groups(grains), sizes(grains, 1) { }
+
+    void join(const std::array<int, 2>& grains)
+    {
+        const int one = groups.of(grains[0]), other = groups.of(grains[1]);
+        if (one == other) return;
+        groups.join(one, other);
+        const int size = sizes[one] + sizes[other];
+        sizes[groups.of(one)] = size;
+        largest = std::max(largest, size);
+    }
+
+    int largest = 1;
+
+private:
+    Groups groups;
+    std::vector<int> sizes;  ///< of each group, at the grain that stands for it
+};
 
 }  // namespace
 
@@ -42,14 +56,13 @@ double lowest_value(std::vector<BondValue> bonds)
 double connecting_value(std::vector<BondValue> bonds, int grains)
 {
     sort(bonds, [](double one, double two) { return one > two; });
-    Groups all(grains), groups(grains);
+    SizedGroups all(grains), groups(grains);
     for (const BondValue& bond : bonds)
-        all.join(bond.grains[0], bond.grains[1]);
-    const int connected = largest_group(all, grains);
+        all.join(bond.grains);
     for (std::size_t b = 0; b < bonds.size(); ++b) {
-        groups.join(bonds[b].grains[0], bonds[b].grains[1]);
+        groups.join(bonds[b].grains);
         if (b + 1 < bonds.size() && bonds[b + 1].value == bonds[b].value) continue;
-        if (2 * largest_group(groups, grains) >= connected) return bonds[b].value;
+        if (2 * groups.largest >= all.largest) return bonds[b].value;
     }
     return bonds.back().value;
 }
