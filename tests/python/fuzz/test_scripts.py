@@ -297,6 +297,7 @@ class Model:
 NOT_CALLED = {
     "approach",
     "keep_start",
+    "looked_at",
     "likely_steps",
     "scales",
     "read_mouth",
