@@ -506,6 +506,7 @@ def _parse_assignment(text: object) -> tuple[str, float | str | bool | None]:
     try:
         return key, float(value)
     except ValueError:
+        unit = f" {UNITS[plain]}".removesuffix(" -")
         raise InputError(
-            f"set {key} = {value!r}, must be a number; write it without unit"
+            f"set {key} = {value!r}{unit}, must be a number; write it without unit"
         ) from None

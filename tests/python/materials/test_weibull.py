@@ -223,7 +223,7 @@ def test_the_rate_follows_the_weakest_contacts_of_minerals():
 def test_none_removes_the_key():
     scattered = rock(weibull=3.0)
     assert description(scattered.with_set(["weibull=none"])) == description(rock())
-    refusal("set cohesion = 'none', must be a number", scattered.with_set, ["cohesion=none"])
+    refusal("set cohesion = 'none' Pa, must be a number", scattered.with_set, ["cohesion=none"])
 
 
 @DIMENSIONS
