@@ -126,7 +126,7 @@ class TestKind:
     title: str = ""  #: its name in headings; empty: its name with a capital
     words: Words = field(default_factory=Words)
     rows: tuple[str, ...] = ()  #: of the common rows of a table of its outcome; none: all
-    #: What a calibration can meet, by its own names: a key of result.json, or two of a quotient.
+    #: Targets of calibrations by name: a key of result.json, or the two keys of a quotient.
     calibrates: Mapping[str, str | tuple[str, str]] = field(default_factory=dict)
     envelope: bool = False  #: its peaks make a strength envelope
     scored: str = ""  #: its role in a scorecard, see ``studies.scorecards``; empty: none

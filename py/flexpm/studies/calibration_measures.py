@@ -113,7 +113,7 @@ def measured(name: str, runs: Sequence[Run], found: Mapping[Run, Table]) -> floa
         return None
     if name in _OF_ENVELOPE:
         try:
-            return _of_envelope(name, [pressure for _, pressure in runs], known)
+            return of_envelope(name, [pressure for _, pressure in runs], known)
         except InputError:  # the peaks follow no criterion
             return None
     if len(known) == 1:
@@ -121,7 +121,18 @@ def measured(name: str, runs: Sequence[Run], found: Mapping[Run, Table]) -> floa
     return strength.tensile_ratio(*known) if name in QUOTIENTS else known[0] / known[1]
 
 
-def _of_envelope(name: str, confinements: Sequence[float], peaks: Sequence[float]) -> float:
+def of_envelope(name: str, confinements: Sequence[float], peaks: Sequence[float]) -> float:
+    """Return a constant of a strength envelope.
+
+    Args:
+        name: ``cohesion`` or ``hoek_brown_strength`` [Pa], ``friction_angle`` [degrees] or
+            ``hoek_brown_m`` [-].
+        confinements: Confining pressures [Pa].
+        peaks: Axial stress at the peak under each pressure [Pa].
+
+    Raises:
+        InputError: if the peaks follow no criterion.
+    """
     if name.startswith("hoek_brown"):
         fitted = strength.hoek_brown(confinements, peaks)
         return fitted.m_i if name == "hoek_brown_m" else fitted.sigma_ci

@@ -226,7 +226,7 @@ def test_disc_specimen(capsys, tmp_path):
     assert found["grains"] == round(0.9 * (0.015 / 1.5e-3) ** 2)
 
 
-#: The command, to which a signal comes when its packing tells its progress for the second time.
+#: The command; it signals itself when its packing reports progress for the second time.
 SIGNALLED = """
 import os, sys
 from flexpm.cli import terminal

@@ -23,7 +23,7 @@ STEPS = re.compile(
 
 @pytest.fixture(autouse=True)
 def _soon(monkeypatch):
-    """Lines come one after the other, and what is told waits for a line that has it."""
+    """Each reported state waits until a line has shown it."""
     monkeypatch.setattr(terminal, "LINES_EVERY", 0.001)
     step_clock(monkeypatch.setattr, look=100)
     written, tell, write = threading.Event(), terminal.Progress.__call__, terminal.Progress._line

@@ -197,7 +197,7 @@ def test_rigid_grains_change_the_modulus_in_proportion():
 
 
 def test_pieces_of_grains_beside_joints_are_no_smaller_grains():
-    """Of given grains, since a packing tells the diameters that it was made of."""
+    """The grains are given: for a packing, the warning takes the diameters of its discs."""
     lines = {f"a{k}": [(-1e-3, 1e-3 * k), (0.013, 1e-3 * k + 5e-4)] for k in range(1, 24)}
     cut = specimen(1.0, solid=False).with_joints(lines)
     assert cut.mean_diameter < 3e-3 / doubts.LARGEST_SIZE_RATIO

@@ -160,7 +160,7 @@ def test_crack_thresholds_are_targets_as_parts_of_the_strength(tmp_path):
     initiation, damage = plan.targets[:2]
     assert plan.measure(initiation, found) == 0.5 and plan.measure(damage, found) is None
     assert unit_of("crack_initiation") == (1.0, "")
-    # one run tells them and the strength
+    # the thresholds and the strength come from the same run
     assert {run for t in plan.targets for run in plan.tests(t)} == {
         ("uniaxial", 0.0),
         ("tension", 0.0),

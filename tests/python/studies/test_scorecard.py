@@ -301,7 +301,7 @@ def test_cracks_by_pair_are_shares_of_all_cracks():
     assert runs.pairs_of([{}]) == []
 
 
-# What is asked for, and what is written
+# Runs of a scorecard, and its files
 
 
 def plan_of(material="augig-calibrated", **options):

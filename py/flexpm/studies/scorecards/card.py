@@ -46,7 +46,7 @@ class Scorecard:
     """A material beside a rock.
 
     Attributes:
-        plan: What was asked for.
+        plan: Material, rock, model, specimens and seeds.
         rows: A row for each measure.
         pairs: Shares of cracks in compression by pair of minerals; empty without minerals.
         lost: Runs that diverged or failed without a result: seed, name and message of each.
@@ -188,7 +188,7 @@ def carry_out(plan: Plan, folder: Path, options: ScorecardOptions) -> Scorecard:
     """Carry out the unfinished runs and write all files.
 
     Args:
-        plan: What was asked for.
+        plan: Material, rock, model, specimens and seeds.
         folder: Folder of the scorecard, which exists.
         options: Keywords of `scorecard`.
     """

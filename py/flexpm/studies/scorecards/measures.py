@@ -14,8 +14,9 @@ from ...errors import InputError
 from ...files import Table
 from ...kinds.registry import kind_of
 from ...require import POSITIVE, Bounds
-from ...results import descent, doubts, strength
+from ...results import descent, doubts
 from ...results.result import Result
+from ..calibration_measures import of_envelope
 
 #: Runs of a packing by their names; the roles of their tests are in ``kinds``.
 SOLVED, COMPRESSED, CONTROLLED = "solved", "compressed", "controlled"
@@ -170,20 +171,11 @@ def _peaks(percents: Sequence[int], runs: Runs) -> tuple[list[float], list[float
     return (pressures, known) if len(known) == len(peaks) else None
 
 
-def _line(name: str, percents: Sequence[int], runs: Runs, _: bool) -> float | str | None:
-    """Return a constant of the line of Mohr and Coulomb through the peaks."""
+def _constant(name: str, percents: Sequence[int], runs: Runs, _: bool) -> float | str | None:
+    """Return a constant of the envelope through the peaks at 0 and at some pressures."""
     found = _peaks(percents, runs)
     try:
-        line = None if found is None else strength.mohr_coulomb(*found)
-    except InputError:  # peaks that do not rise
-        return NO_CRITERION
-    return None if line is None else float(getattr(line, name))
-
-
-def _hoek_brown(runs: Runs, _: bool) -> float | str | None:
-    found = _peaks(tuple(PRESSURES), runs)
-    try:
-        return None if found is None else strength.hoek_brown(*found).m_i
+        return None if found is None else of_envelope(name, *found)
     except InputError:
         return NO_CRITERION
 
@@ -275,13 +267,13 @@ def _of_envelope(name: str, percents: Sequence[int]) -> list[Measure]:
     return [
         Measure(
             *(f"cohesion_{name}", f"cohesion, 0 to {top}", "Pa", runs),
-            partial(_line, "cohesion", percents),
+            partial(_constant, "cohesion", percents),
             about,
             _STRESS,
         ),
         Measure(
             *(f"friction_angle_{name}", f"friction angle, 0 to {top}", "degrees", runs),
-            partial(_line, "friction_angle", percents),
+            partial(_constant, "friction_angle", percents),
             about,
             Bounds(at_least=0.0, below=90.0),
         ),
@@ -377,7 +369,7 @@ _ALL = (
     Measure(
         *("hoek_brown_m", "Hoek-Brown m_i", "-"),
         (COMPRESSED, *map(confined, PRESSURES)),
-        _hoek_brown,
+        partial(_constant, "hoek_brown_m", tuple(PRESSURES)),
         "curve through all peaks",
         _RATIO,
     ),
