@@ -47,7 +47,7 @@ MAY_OPEN = {
     "py/flexpm/results/arrays/vtu_arrays.py": "a temporary file of FILES",
     "py/flexpm/runs/checkpoint.py": "a checksum, read in parts",
     "py/flexpm/runs/loading_start.py": "a checksum, read in parts",
-    "py/flexpm/specimens/labels/picture.py": "an image, whose size is known from its head",
+    "py/flexpm/specimens/labels/image_files.py": "an image, whose size is known from its head",
     "py/flexpm/specimens/space/file.py": "the first letters of a file",
     "py/flexpm/studies/scripts.py": "a checksum of modules that Python has read",
 }

@@ -4,9 +4,12 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable
+from pathlib import Path
 
 from ..errors import InputError
+from ..files import read_text
 from ..require import LENGTH, Bounds, require_number, require_whole
 
 #: Edges of cells below this share of the mean diameter are collapsed: 0.35 mm for discs of 2-4 mm.
@@ -58,12 +61,26 @@ def require_memory(where: str, grains: float, each: float) -> None:
     Raises:
         InputError: if the packing needs more than the memory of the machine.
     """
-    needed, there = each * grains, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    needed, there = each * grains, memory_of_machine()
     if needed > there:
         raise InputError(
             f"{where}: grains = {grains:.4g}, need {needed / 1e9:.3g} GB of memory, must be at "
             f"most {there / 1e9:.3g} GB; choose larger diameters or a smaller specimen, in m"
         )
+
+
+def memory_of_machine() -> int:
+    """Return the memory of the machine [byte]."""
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+
+
+def available_memory() -> int:
+    """Return the memory that processes can take without swapping [byte]."""
+    try:
+        found = re.search(r"MemAvailable:\s*(\d+) kB", read_text(Path("/proc/meminfo")))
+    except (OSError, ValueError):
+        found = None
+    return memory_of_machine() if found is None else 1024 * int(found[1])
 
 
 def require_seed(where: str, seed: object) -> int:

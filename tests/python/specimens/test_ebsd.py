@@ -303,9 +303,9 @@ def test_maps_of_several_layers_are_refused_by_what_they_are(tmp_path):
     text = ctf_text(phase, angles, PHASES)
     path = tmp_path / "a.ctf"
     path.write_text(layered(text, 5))
-    refusal("ZCells = 5, must be 1: volumes are not read, Neper", of, path)
+    refusal("ZCells = 5, must be 1: stacks of maps are not read", of, path)
     path.write_text(layered(text, 5).replace("ZCells\t5\n", ""))
-    refusal("Z = 5 layers, must be 1: volumes are not read", of, path)
+    refusal("Z = 5 layers, must be 1: stacks of maps are not read", of, path)
     path.write_text(text)
     expected = of(path)
     path.write_text(layered(text, 1))

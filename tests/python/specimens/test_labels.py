@@ -293,7 +293,7 @@ def test_an_image_is_read_before_yade_is_loaded():
 
 
 def test_volumes_of_labels_are_refused_by_what_they_are():
-    with pytest.raises(InputError, match=r"shape \(2, 3, 4\), must be rows of one image: volumes"):
+    with pytest.raises(InputError, match=r"shape \(2, 3, 4\), must be rows of one image: flexpm"):
         Specimen.from_labels(np.zeros((2, 3, 4), int), PIXEL, 0.01)
 
 
@@ -321,8 +321,8 @@ def test_images_that_cannot_be_read_are_refused_in_one_line(tmp_path, capfd):
     (tmp_path / "none.png").write_bytes(b"no image")
     for file, words in {
         "colours.png": "image colour = #0000ff of 32 pixels, one at row 6, column 8, is missing",
-        "pages.tif": "image = 2 pages, must be 1: volumes are not read, Neper's .tess is",
-        "volume.npy": "array of shape (3, 5, 5), must be rows of one image: volumes are not read",
+        "pages.tif": "image = 2 pages, must be 1: flexpm specimen volume reads volumes",
+        "volume.npy": "array of shape (3, 5, 5), must be rows of one image: flexpm specimen",
         "jpeg.tif": "must be a PNG, TIFF, NPY or TESR file: JPEGLib: ",
         "zip.tif": "must be a PNG, TIFF, NPY or TESR file: ZIPDecode: ",
         "head.npy": "must be an array of numbers: head = 4294967295 bytes, must be <= 10000",

@@ -226,7 +226,10 @@ def test_bytes_of_orientations_follow_the_cells_of_a_raster(tmp_path):
 def test_rasters_that_are_none_in_the_plane_are_refused(tmp_path, capsys):
     good = tesr_text(np.full((8, 8), 1))
     for text, words in (
-        (good.replace("   2\n", "   3\n"), "dimension = 3, must be 2: volumes are not read, Neper"),
+        (
+            good.replace("   2\n", "   3\n"),
+            "dimension = 3, must be 2: flexpm specimen volume reads volumes",
+        ),
         (good.replace("0.01 0.01", "0.01 0.02"), "pixel = 0.01 x 0.02, must be square"),
         (good.replace("ascii", "binary32"), "pixels, must be 64 by the size in"),
         (good.replace("ascii", "binary7"), "data format = 'binary7', must be ascii or one of"),

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from . import laue
-from .given import NO_VOLUMES
 from .orientation_map import Head, MapText, OrientationMap, Phase
 
 #: Laue groups by their number in these files, from 1.
 _GROUPS = ("-1", "2/m", "mmm", "4/m", "4/mmm", "-3", "-3m", "6/m", "6/mmm", "m-3", "m-3m")
 _COLUMNS = ("Phase", "X", "Y", "Euler1", "Euler2", "Euler3")
 _MOST_PHASES = 100
+_NO_STACKS = "stacks of maps are not read; export one slice"
 
 
 def read(path: Path) -> OrientationMap:
@@ -54,9 +54,7 @@ def read(path: Path) -> OrientationMap:
         for key in ("XCells", "YCells", "ZCells")
     )
     if deep > 1:
-        raise text.refused(
-            f"ZCells = {deep}, must be 1: {NO_VOLUMES}; export one slice", found["ZCells"][1]
-        )
+        raise text.refused(f"ZCells = {deep}, must be 1: {_NO_STACKS}", found["ZCells"][1])
     count, first = found["Phases"]
     number = int(text.number("Phases", count, first))
     if not 1 <= number <= _MOST_PHASES:
@@ -72,7 +70,7 @@ def read(path: Path) -> OrientationMap:
     phase, x, y = values[:, :3].T
     layers = len(np.unique(values[:, len(_COLUMNS) :]))
     if layers > 1:
-        raise text.refused(f"Z = {layers} layers, must be 1: {NO_VOLUMES}; export one slice", head)
+        raise text.refused(f"Z = {layers} layers, must be 1: {_NO_STACKS}", head)
     if len(phase) and not (np.isin(phase, np.arange(number + 1))).all():
         wrong = int(np.flatnonzero(~np.isin(phase, np.arange(number + 1)))[0])
         raise text.refused(

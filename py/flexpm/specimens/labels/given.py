@@ -20,6 +20,7 @@ from .chains import Network
 from .loops import divided
 from .measures import of_image
 from .smoothing import smooth
+from .whole import KINDS, whole_numbers
 
 _WHERE = "Specimen.from_labels"
 #: Pixels of an image; one takes about 200 bytes.
@@ -27,7 +28,7 @@ MOST_PIXELS = 20_000_000
 #: Grains of an image.
 MOST_GRAINS = 100_000
 #: Why a file or an array of three dimensions is refused.
-NO_VOLUMES = "volumes are not read, Neper's .tess is"
+NO_VOLUMES = "flexpm specimen volume reads volumes"
 #: Default spacing of corners over the mean diameter of the grains [-], and the least one [pixels].
 _EDGE, LEAST_EDGE = 0.25, 2.0
 #: Least parts of their convex hulls that pieces fill [-]: the next one if no mesh fits the pieces.
@@ -139,7 +140,7 @@ def whole_labels(labels: npt.ArrayLike) -> IntArray:
             f"{_WHERE}: labels = array of shape {given.shape}, must be rows of one image: "
             f"{NO_VOLUMES}; give one slice"
         )
-    if given.ndim != 2 or given.dtype.kind not in "biuf" or min(given.shape, default=0) < 2:
+    if given.ndim != 2 or given.dtype.kind not in KINDS or min(given.shape, default=0) < 2:
         raise InputError(
             f"{_WHERE}: labels = {given.dtype} array of shape {given.shape}, must be rows of whole "
             "numbers, two or more of each; correct it"
@@ -149,20 +150,9 @@ def whole_labels(labels: npt.ArrayLike) -> IntArray:
             f"{_WHERE}: labels = {given.shape[0]} x {given.shape[1]} pixels, must be <= "
             f"{MOST_PIXELS} in all; crop the image or use larger pixels"
         )
-    if given.dtype.kind == "f":
-        wrong = ~np.isfinite(given) | (given != np.floor(given)) | (np.abs(given) > 2.0**53)
-        if wrong.any():
-            row, column = np.argwhere(wrong)[0].tolist()
-            raise InputError(
-                f"{_WHERE}: labels = {given[row, column]} at row {row}, column {column}, must be "
-                "whole numbers; round them"
-            )
-    if given.dtype.kind == "u" and given.max() > np.iinfo(np.int64).max:
-        raise InputError(f"{_WHERE}: labels = {given.max()}, must be below 2^63; renumber them")
-    whole = given.astype(np.int64)
-    if whole.min() == np.iinfo(np.int64).min:  # one less stands for holes
-        raise InputError(f"{_WHERE}: labels = {whole.min()}, must be above -2^63; renumber them")
-    return whole
+    return whole_numbers(
+        f"{_WHERE}: labels", given, lambda index: f"row {index[0]}, column {index[1]}"
+    )
 
 
 def _minerals(minerals: object, image: IntArray) -> dict[int, int | None]:

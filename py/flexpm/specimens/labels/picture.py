@@ -3,14 +3,8 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
 import re
-import struct
-import sys
-import tokenize
-import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,7 +15,7 @@ from ...arrays import IntArray
 from ...errors import InputError
 from ...files import Table, load_toml
 from ...require import quoted, require_name
-from . import tesr
+from . import image_files, tesr
 from .given import MOST_PIXELS, NO_VOLUMES, whole_labels
 
 if TYPE_CHECKING:
@@ -29,13 +23,6 @@ if TYPE_CHECKING:
 
 #: What a phase is called that is no rock.
 HOLE_NAME = "hole"
-#: What Pillow and numpy raise for broken files.
-_BROKEN = (
-    *(OSError, EOFError, ValueError, SyntaxError, TypeError, LookupError, AttributeError),
-    *(OverflowError, struct.error, tokenize.TokenError),
-)
-#: Longest head of an array, and most that is read of what a library complains about [byte].
-_LONGEST = 10_000
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
@@ -72,44 +59,15 @@ def read(path: Path) -> Picture:
     if path.suffix.lower() == ".tesr":
         labels = tesr.read(path)
         return Picture(labels, has_voids=bool((labels == 0).any()))
-    from PIL import Image
 
-    found, reason = None, ""
-    with _complaints() as complaints, warnings.catch_warnings():
-        # large images are refused below, broken ones by errors
-        warnings.simplefilter("ignore")
-        try:
-            with Image.open(path, formats=("PNG", "TIFF")) as image:
-                found = _from_open(image)
-        except InputError:  # a ValueError, too
-            raise
-        except (*_BROKEN, Image.DecompressionBombError) as error:
-            reason = _short(error)
-    reason = complaints[0] if complaints else reason
-    if found is None or reason:
-        raise InputError(
+    def refused(reason: str) -> InputError:
+        return InputError(
             f"image = {quoted(str(path))}, must be a PNG, TIFF, NPY or TESR file: {reason}; give "
             "a whole one"
         )
-    return found
 
-
-@contextlib.contextmanager
-def _complaints() -> Iterator[list[str]]:
-    """Collect the lines that C libraries write to standard error for a broken TIFF file."""
-    lines: list[str] = []
-    kept, taken = os.dup(2), os.memfd_create("complaints")
-    try:
-        if sys.stderr is not None:
-            sys.stderr.flush()
-        os.dup2(taken, 2)
-        yield lines
-    finally:
-        os.dup2(kept, 2)
-        os.close(kept)
-        with os.fdopen(taken, "rb") as written:
-            written.seek(0)
-            lines += written.read(_LONGEST).decode(errors="replace").splitlines()
+    with image_files.opened(path, refused) as image:
+        return _from_open(image)
 
 
 def _from_open(image: ImageFile) -> Picture:
@@ -129,23 +87,16 @@ def _from_open(image: ImageFile) -> Picture:
     return _from_image(image.mode, np.asarray(image))
 
 
-def _short(error: Exception) -> str:
-    return str(error).splitlines()[0] if str(error) else type(error).__name__
-
-
 def _from_array(path: Path) -> Picture:
     """Return the labels of an array; its size is checked from its head before the data are read."""
     try:
-        with path.open("rb") as file:
-            magic, version, length = struct.unpack("<6sHI", file.read(12).ljust(12, b"\0"))
-        # numpy would make room for all that a head of formats 2 and 3 claims
-        if magic == b"\x93NUMPY" and version & 0xFF >= 2 and length > _LONGEST:
-            raise ValueError(f"head = {length} bytes, must be <= {_LONGEST}; save the array again")
+        image_files.require_short_head(path)
         found = np.load(path, mmap_mode="r", allow_pickle=False)
-    except _BROKEN as error:
+    except image_files.BROKEN as error:
+        reason = image_files.short(error)
         raise InputError(
-            f"image = {quoted(str(path))}, must be an array of numbers: {_short(error)}; save it "
-            "with numpy.save"
+            f"image = {quoted(str(path))}, must be an array of numbers: {reason}; save it with "
+            "numpy.save"
         ) from None
     if not isinstance(found, np.ndarray) or found.ndim not in (2, 3) or found.size > MOST_PIXELS:
         shape = getattr(found, "shape", "several arrays")
