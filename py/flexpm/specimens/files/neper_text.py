@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,8 +15,6 @@ from ...require import quoted
 _LARGEST = 64 * 10**6
 #: Largest number, far beyond any length in any unit.
 _MOST = 1e30
-#: Behind it are bytes of a raster, its cells or its orientations, if these are in no other file.
-_BINARY = re.compile(rb"\*\*(?:data|oridata\s+\S+|oridef)\s+binary\w*[ \t]*\r?\n(?!\s*\*file\s)")
 
 
 class Words:
@@ -26,21 +23,20 @@ class Words:
     Args:
         path: The file, at most 64 MB.
         what: Type of the file, for messages.
+        content: Text of the file up to its data; None: the whole file is read.
 
     Attributes:
-        binary: Content from the first section of bytes on; the words end before it.
+        path: The file.
 
     Raises:
         InputError: if it cannot be read.
     """
 
-    def __init__(self, path: Path, what: str) -> None:
+    def __init__(self, path: Path, what: str, content: bytes | None = None) -> None:
+        self.path = path
         self._name = f"{what} = {quoted(str(path))}"
         try:
-            content = read_bytes(path, _LARGEST)
-            begin = _BINARY.search(content)
-            end = begin.end() if begin else len(content)
-            text, self.binary = text_of(content[:end]), content[end:]
+            text = text_of(read_bytes(path, _LARGEST) if content is None else content)
         except OSError as error:
             raise InputError(
                 f"{self._name}, cannot be read ({error.strerror}); give a file of Neper"

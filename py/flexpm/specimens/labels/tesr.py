@@ -1,111 +1,330 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Read raster tessellations of Neper, ``.tesr`` in 2D, as labels.
+"""Read raster tessellations of Neper, ``.tesr`` in 2D and 3D, as labels.
 
 Format: Neper's documentation, "Raster Tessellation File".
 """
 
 from __future__ import annotations
 
+import re
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from ...arrays import IntArray
-from ...files import read_bytes
+from ...errors import InputError
 from ...require import quoted
 from ..files.neper_text import Words
 from .given import MOST_PIXELS, NO_VOLUMES
 
 #: Sides of a pixel differ by less [-].
 _SQUARE = 1e-6
-_LARGEST_LABEL = 2**31 - 1
+#: Largest label, and most cells along an axis.
+_LARGEST = 2**31 - 1
+#: Largest size of all before the data, and of text that is converted at a time [byte].
+_LARGEST_HEAD, _CHUNK = 64 * 10**6, 2**22
 #: Numbers of cells by the word for their format.
 _BINARY = {
     **{"binary8": "u1", "binary16": "<i2", "binary16_big": ">i2"},
     **{"binary32": "<i4", "binary32_big": ">i4"},
 }
+#: The head ends before the data, or before the orientations of a file without cells.
+_END_OF_HEAD = re.compile(rb"\*\*(?:data|oridata|oridef)(?=\s)")
+_FORMAT = re.compile(rb"\s*([^\s*]\S*)[ \t]*(?:\r?\n)?")
+_FILE = re.compile(rb"\s*\*file\s+(\S+)")
+_SECTIONS = ("**cell", "**data", "**oridata", "**oridef", "***end")
+
+Bytes = npt.NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Raster:
+    """The head of a raster tessellation, and where its cells are.
+
+    Attributes:
+        path: The file.
+        counts: Number of pixels or voxels along x, y (, z).
+        spacing: Size of a pixel or voxel.
+        origin: Corner of the first pixel or voxel.
+        cells: Number of cells; None: not given.
+        ids: Label of each cell from 1 on; None: its number.
+        phases: Phase of each cell; None without phases.
+        form: Format of the data.
+        data: File of the data.
+        start: Position of the data in this file [byte].
+    """
+
+    path: Path
+    counts: tuple[int, ...]
+    spacing: tuple[float, ...]
+    origin: tuple[float, ...]
+    cells: int | None
+    ids: IntArray | None
+    phases: IntArray | None
+    form: str
+    data: Path
+    start: int
+
+    @property
+    def number(self) -> int:
+        """Number of pixels or voxels."""
+        return int(np.prod(self.counts, dtype=object))
+
+    @property
+    def element(self) -> str:
+        """Word for an element of the raster."""
+        return "pixel" if len(self.counts) == 2 else "voxel"
+
+    def labels(self) -> npt.NDArray[Any]:
+        """Return the label of each element, x fastest, then y; 0 is void.
+
+        Raises:
+            InputError: for data that are broken or of another number.
+        """
+        content = _mapped(self.data)
+        found = self._text(content) if self.form == "ascii" else self._numbers(content)
+        lowest, highest = int(found.min()), int(found.max())
+        if lowest < 0:
+            raise self._refused(f"cell of a {self.element} = {lowest}, must be >= 0; correct it")
+        if self.cells is not None and highest > self.cells:
+            raise self._refused(
+                f"cell of a {self.element} = {highest}, must be <= {self.cells}, the number of "
+                "cells in **cell; correct one of them"
+            )
+        if self.ids is None:
+            return found
+        table = np.zeros(len(self.ids) + 1, dtype=np.int32)
+        table[1:] = self.ids
+        named: npt.NDArray[np.int32] = table[found]
+        return named
+
+    def _numbers(self, content: Bytes) -> npt.NDArray[Any]:
+        """Return data that are bytes, which stay in the file."""
+        form = np.dtype(_BINARY[self.form])
+        rest = content[self.start :]
+        size = self.number * form.itemsize
+        after = rest[size : size + 100].tobytes()
+        is_file = self.data != self.path
+        if len(rest) < size or (after if is_file else not after.lstrip().startswith(b"*")):
+            there = len(rest) // form.itemsize
+            told = f"{there}" if there < self.number or is_file else f"more than {self.number}"
+            raise self._refused(
+                f"data = {told} {self.element}s, must be {self.number} by the size in **general; "
+                "give the whole file"
+            )
+        return rest[:size].view(form)
+
+    def _text(self, content: Bytes) -> npt.NDArray[Any]:
+        """Return data that are text; they are converted in parts."""
+        end = self.start + _first(content[self.start :], ord("*"))
+        if 2 * self.number - 1 > end - self.start:
+            raise self._short(content, end)
+        found = np.empty(self.number, dtype=np.int32)
+        filled = 0
+        for at, text in _chunks(content, self.start, end):
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                try:
+                    part = np.fromstring(text, dtype=np.int64, sep=" ")
+                except (ValueError, DeprecationWarning):
+                    raise self._wrong(content, at, text) from None
+            if len(part) and not (part.min() >= 0 and part.max() <= _LARGEST):
+                raise self._wrong(content, at, text)
+            if filled + len(part) > self.number:
+                raise self._refused(
+                    f"data = more than {self.number} {self.element}s, must be {self.number} by the "
+                    "size in **general; correct one of them"
+                )
+            found[filled : filled + len(part)] = part
+            filled += len(part)
+        if filled < self.number:
+            raise self._short(content, end)
+        return found
+
+    def _wrong(self, content: Bytes, at: int, text: bytes) -> InputError:
+        """Return the error of the first word that is not a label."""
+        for match in re.finditer(rb"\S+", text):
+            word = match[0]
+            if not (re.fullmatch(rb"\+?[0-9]{1,18}", word) and int(word) <= _LARGEST):
+                return self._word(content, at + match.start(), word)
+        return self._refused("data are not whole numbers; correct them")  # pragma: no cover
+
+    def _short(self, content: Bytes, end: int) -> InputError:
+        """Return the error of data that end too early."""
+        match = re.match(rb"\s*(\S*)", content[end : end + 100].tobytes())
+        return self._word(content, end, match[1] if match else b"")
+
+    def _word(self, content: Bytes, at: int, word: bytes) -> InputError:
+        line = 1 + sum(
+            int(np.count_nonzero(content[first : min(first + _CHUNK, at)] == ord("\n")))
+            for first in range(0, at, _CHUNK)
+        )
+        text = quoted(word.decode(errors="replace"))
+        return InputError(
+            f"tesr = {quoted(str(self.data))}, line {line}: cell of a {self.element} = {text}, "
+            f"must be a whole number from 0 to {_LARGEST}; correct it or the size in **general"
+        )
+
+    def _refused(self, why: str) -> InputError:
+        return InputError(f"tesr = {quoted(str(self.path))}: {why}")
 
 
 def read(path: Path) -> IntArray:
-    """Read labels, (rows, columns), the first row at the top; 0 is void.
+    """Read labels of a 2D raster, (rows, columns), the first row at the top; 0 is void.
 
     Raises:
         InputError: for a file that cannot be read or has three dimensions, pixels that are not
             square, or orientations only, and for a broken line, with its number.
     """
-    words = Words(path, "tesr")
+    raster = head(path, 2)
+    columns, rows = raster.counts
+    labels: IntArray = raster.labels().reshape(rows, columns)[::-1].astype(np.int64)
+    return labels
+
+
+def head(path: Path, dimension: int) -> Raster:
+    """Read all but the cells of the pixels or voxels.
+
+    Args:
+        path: The file.
+        dimension: Its dimension, 2 or 3.
+
+    Raises:
+        InputError: as `read`.
+    """
+    content = _mapped(path)
+    match = _END_OF_HEAD.search(content[:_LARGEST_HEAD].tobytes())
+    if match is None and len(content) > _LARGEST_HEAD:
+        raise InputError(
+            f"tesr = {quoted(str(path))}, cannot be read: the part before **data is larger than "
+            f"{_LARGEST_HEAD // 10**6} MB; give a file of Neper"
+        )
+    end = len(content) if match is None else match.end()
+    words = Words(path, "tesr", content[:end].tobytes())
     words.expect("***tesr")
     words.expect("**format")
     # the oldest files have the format of all data here
     kind = words.word("format of the data") if words.word("format") == "2.0" else ""
     words.skip_to("**general")
-    dimension = words.whole("dimension", 1, 3)
-    if dimension != 2:
+    if (found := words.whole("dimension", 1, 3)) != dimension:
+        other = f"{NO_VOLUMES}; cut a slice by Neper" if dimension == 2 else "give a volume, or"
+        other += "" if dimension == 2 else " a raster in 2D to flexpm specimen image"
+        raise words.refused(f"dimension = {found}, must be {dimension}: {other}")
+    axes = "xyz"[:dimension]
+    counts = tuple(words.whole(f"size {key}", 1 + (dimension == 2), _LARGEST) for key in axes)
+    if dimension == 2 and counts[0] * counts[1] > MOST_PIXELS:
         raise words.refused(
-            f"dimension = {dimension}, must be 2: {NO_VOLUMES}; cut a slice by Neper"
+            f"size = {counts[0]} x {counts[1]} pixels, must be <= {MOST_PIXELS} in all; use a "
+            "coarser raster"
         )
-    columns, rows = (words.whole(f"size {key}", 2, MOST_PIXELS) for key in "xy")
-    if columns * rows > MOST_PIXELS:
+    spacing = tuple(words.number(f"size of a pixel {key}") for key in axes)
+    if dimension == 2 and not abs(spacing[0] - spacing[1]) <= _SQUARE * abs(spacing[0]):
         raise words.refused(
-            f"size = {columns} x {rows} pixels, must be <= {MOST_PIXELS} in all; use a coarser "
-            "raster"
+            f"pixel = {spacing[0]:g} x {spacing[1]:g}, must be square; resample it by Neper"
         )
-    width, height = (words.number(f"size of a pixel {key}") for key in "xy")
-    if not abs(width - height) <= _SQUARE * abs(width):
-        raise words.refused(f"pixel = {width:g} x {height:g}, must be square; resample it by Neper")
-    most, section = _LARGEST_LABEL, words.skip_to("**cell", "**data", "***end")
+    origin = tuple(0.0 for _ in axes)
+    section = words.skip_to("*origin", *_SECTIONS)
+    if section == "*origin":
+        origin = tuple(words.number(f"origin {key}") for key in axes)
+        section = words.skip_to(*_SECTIONS)
+    cells, ids, phases = None, None, None
     if section == "**cell":
-        most = words.whole("cells", 1, _LARGEST_LABEL)
-        section = words.skip_to("**data", "***end")
-    if section == "***end":
+        cells, ids, phases, section = _cells(words)
+    if section != "**data":
         raise words.refused("**data is missing, the cell of each pixel; compute the cells first")
-    labels = _cells(words, kind or words.word("data format"), columns * rows, path.parent)
-    if labels.max() > most:
-        raise words.refused(
-            f"cell of a pixel = {labels.max()}, must be <= {most}, the number of cells in **cell; "
-            "correct one of them"
-        )
-    return labels.reshape(rows, columns)[::-1].copy()
+    form, data, start = _data(words, content, end, kind)
+    return Raster(path, counts, spacing, origin, cells, ids, phases, form, data, start)
 
 
-def _cells(words: Words, kind: str, number: int, folder: Path) -> IntArray:
-    """Return the cell of each pixel."""
+def _cells(words: Words) -> tuple[int | None, IntArray | None, IntArray | None, str]:
+    """Return number, labels and phases of the cells, and the section that follows."""
+    cells = None if words.section else words.whole("cells", 0, _LARGEST)
+    found: dict[str, IntArray] = {}
+    while True:
+        section = words.skip_to("*id", "*phase", "*group", *_SECTIONS)
+        if section in _SECTIONS:
+            break
+        rows = []
+        while not (words.section or words.is_over):
+            rows.append(words.whole(f"{section[1:]} of a cell", 0, _LARGEST))
+        if cells is not None and len(rows) != cells:
+            raise words.refused(
+                f"{section} = {len(rows)} numbers, must be {cells}, the number of cells; correct it"
+            )
+        cells = len(rows)
+        found[section] = np.array(rows, dtype=np.int64)
+    ids = found.get("*id")
+    if ids is not None and len(np.unique(ids[ids > 0])) < len(ids):
+        raise words.refused("*id = 0 or the same number twice, must be different numbers from 1 on")
+    if ids is not None and np.array_equal(ids, np.arange(1, len(ids) + 1)):
+        ids = None
+    return cells, ids, found.get("*phase", found.get("*group")), section
+
+
+def _data(words: Words, content: Bytes, at: int, kind: str) -> tuple[str, Path, int]:
+    """Return format, file and position of the data, which follow their mark."""
+    after = content[at : at + 5000].tobytes()
+    if kind:
+        first = re.match(rb"[ \t]*(?:\r?\n)?", after)
+    else:
+        first = _FORMAT.match(after)
+        kind = first[1].decode(errors="replace") if first else ""
     if kind != "ascii" and kind not in _BINARY:
         raise words.refused(
             f"data format = {quoted(kind)}, must be ascii or one of {', '.join(_BINARY)}; convert "
             "it with Neper"
         )
-    binary, is_file = words.binary, words.section == "*file"
-    if is_file:
-        words.expect("*file")
-        path = folder / words.word("file of the data")
-        try:
-            is_there = path.is_file()  # no pipe, which might never end
-            binary = read_bytes(path, 4 * MOST_PIXELS) if is_there else b""
-        except (OSError, ValueError) as error:
-            why = f"cannot be read: {error}"
-            raise words.refused(f"data = {quoted(str(path))}, {why}") from None
-        if not is_there:
-            raise words.refused(f"data = {quoted(str(path))}, must be a file; put it there")
-        if kind == "ascii":
-            words = Words(path, "data of a tesr")
-    if kind == "ascii":
-        whole = [words.whole("cell of a pixel", 0, _LARGEST_LABEL) for _ in range(number)]
-        if not words.is_over and not words.section:
-            raise words.refused(
-                f"data = more than {number} pixels, must be {number} by the size in **general; "
-                "correct one of them"
-            )
-        return np.array(whole)
-    form = np.dtype(_BINARY[kind])
-    there = len(binary) // form.itemsize
-    rest = binary[number * form.itemsize :]
-    if there < number or (rest if is_file else not rest.lstrip().startswith(b"*")):
-        told = f"{there} pixels" if there < number or is_file else f"more than {number} pixels"
-        raise words.refused(
-            f"data = {told}, must be {number} by the size in **general; give the whole file"
-        )
-    labels = np.frombuffer(binary, form, number).astype(int)
-    if labels.min() < 0:
-        raise words.refused(f"cell of a pixel = {labels.min()}, must be >= 0; correct it")
-    return labels
+    skipped = first.end() if first else 0
+    named = _FILE.match(after, skipped)
+    if named is None:
+        return kind, words.path, at + skipped
+    try:
+        data = words.path.parent / named[1].decode()
+        is_there = data.is_file()  # no pipe, which might never end
+    except (OSError, ValueError) as error:
+        raise words.refused(f"data file cannot be read: {error}; correct its name") from None
+    if not is_there:
+        raise words.refused(f"data = {quoted(str(data))}, must be a file; put it there")
+    return kind, data, 0
+
+
+def _mapped(data: Path) -> Bytes:
+    """Return the content of a plain file, which stays on the disk until it is used."""
+    try:
+        if not data.is_file():  # no pipe, which might never end
+            raise OSError("is not a file" if data.exists() else "is missing")
+        if not data.stat().st_size:
+            return np.zeros(0, dtype=np.uint8)
+        return np.memmap(data, dtype=np.uint8, mode="r")
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(
+            f"tesr = {quoted(str(data))}, cannot be read ({reason}); give a file of Neper"
+        ) from None
+
+
+def _chunks(content: Bytes, start: int, end: int) -> Iterator[tuple[int, bytes]]:
+    """Yield position and text of parts that end between words."""
+    while start < end:
+        stop = min(start + _CHUNK, end)
+        if stop < end:
+            blanks = np.flatnonzero(content[start:stop] <= ord(" "))
+            stop = start + int(blanks[-1]) + 1 if len(blanks) else end
+        text = content[start:stop].tobytes()
+        if text.strip():
+            yield start, text
+        start = stop
+
+
+def _first(content: Bytes, byte: int) -> int:
+    """Return the position of a byte, or the length of the content."""
+    for start in range(0, len(content), _CHUNK):
+        found = np.flatnonzero(content[start : start + _CHUNK] == byte)
+        if len(found):
+            return start + int(found[0])
+    return len(content)

@@ -15,7 +15,7 @@ from ...errors import InputError
 from ...require import quoted, require_list, require_one_of
 from ..checks import require_length
 from ..labels.majority import majority
-from . import npy, raw, tiff
+from . import npy, raw, tesr, tiff
 from .label_volume import AXES, Crop, LabelVolume, Triple, Window
 from .volume_file import (
     Content,
@@ -30,6 +30,7 @@ UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
 _READERS: dict[str, Callable[[Path], VolumeFile]] = {
     **dict.fromkeys(tiff.SUFFIXES, tiff.read),
     ".npy": npy.read,
+    ".tesr": tesr.read,
 }
 #: Formats of which a file may have several arrays.
 _NAMED: dict[str, Callable[[Path, str | None], VolumeFile]] = {}
