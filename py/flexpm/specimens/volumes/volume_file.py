@@ -138,7 +138,10 @@ def triple_of(path: Path, what: str, values: object, least: float) -> Triple:
         InputError: if they are not three finite numbers above `least`.
     """
     try:
-        found = np.asarray(values, dtype=float).ravel()
+        given = np.asarray(values).ravel()
+        # the shortest decimal number of 32 bits, which was meant
+        single = given.dtype == np.float32
+        found = np.array([*map(str, given)] if single else given, dtype=float)
     except (TypeError, ValueError, OverflowError):
         found = np.zeros(0)
     if len(found) != 3:
