@@ -7,8 +7,6 @@ Format: Neper's documentation, "Raster Tessellation File".
 from __future__ import annotations
 
 import re
-import warnings
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,14 +18,15 @@ from ...arrays import IntArray
 from ...errors import InputError
 from ...require import quoted
 from ..files.neper_text import Words
+from ..files.number_text import Bytes, WrongTextError, first_of, line_at, mapped, numbers_of
 from .given import MOST_PIXELS, NO_VOLUMES
 
 #: Sides of a pixel differ by less [-].
 _SQUARE = 1e-6
 #: Largest label, and most cells along an axis.
 _LARGEST = 2**31 - 1
-#: Largest size of all before the data, and of text that is converted at a time [byte].
-_LARGEST_HEAD, _CHUNK = 64 * 10**6, 2**22
+#: Largest size of all before the data [byte].
+_LARGEST_HEAD = 64 * 10**6
 #: Numbers of cells by the word for their format.
 _BINARY = {
     **{"binary8": "u1", "binary16": "<i2", "binary16_big": ">i2"},
@@ -38,8 +37,6 @@ _END_OF_HEAD = re.compile(rb"\*\*(?:data|oridata|oridef)(?=\s)")
 _FORMAT = re.compile(rb"\s*([^\s*]\S*)[ \t]*(?:\r?\n)?")
 _FILE = re.compile(rb"\s*\*file\s+(\S+)")
 _SECTIONS = ("**cell", "**data", "**oridata", "**oridef", "***end")
-
-Bytes = npt.NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
@@ -121,54 +118,21 @@ class Raster:
 
     def _text(self, content: Bytes) -> npt.NDArray[Any]:
         """Return data that are text; they are converted in parts."""
-        end = self.start + _first(content[self.start :], ord("*"))
-        if 2 * self.number - 1 > end - self.start:
-            raise self._short(content, end)
-        found = np.empty(self.number, dtype=np.int32)
-        filled = 0
-        for at, text in _chunks(content, self.start, end):
-            with warnings.catch_warnings():
-                warnings.simplefilter("error")
-                try:
-                    part = np.fromstring(text, dtype=np.int64, sep=" ")
-                except (ValueError, DeprecationWarning):
-                    raise self._wrong(content, at, text) from None
-            if len(part) and not (part.min() >= 0 and part.max() <= _LARGEST):
-                raise self._wrong(content, at, text)
-            if filled + len(part) > self.number:
+        end = first_of(content, ord("*"), self.start)
+        try:
+            found = numbers_of(content, self.start, end, self.number, np.dtype(np.int32))
+        except WrongTextError as error:
+            if error.is_longer:
                 raise self._refused(
                     f"data = more than {self.number} {self.element}s, must be {self.number} by the "
                     "size in **general; correct one of them"
-                )
-            found[filled : filled + len(part)] = part
-            filled += len(part)
-        if filled < self.number:
-            raise self._short(content, end)
+                ) from None
+            raise InputError(
+                f"tesr = {quoted(str(self.data))}, line {line_at(content, error.position)}: cell "
+                f"of a {self.element} = {quoted(error.word)}, must be a whole number from 0 to "
+                f"{_LARGEST}; correct it or the size in **general"
+            ) from None
         return found
-
-    def _wrong(self, content: Bytes, at: int, text: bytes) -> InputError:
-        """Return the error of the first word that is not a label."""
-        for match in re.finditer(rb"\S+", text):
-            word = match[0]
-            if not (re.fullmatch(rb"\+?[0-9]{1,18}", word) and int(word) <= _LARGEST):
-                return self._word(content, at + match.start(), word)
-        return self._refused("data are not whole numbers; correct them")  # pragma: no cover
-
-    def _short(self, content: Bytes, end: int) -> InputError:
-        """Return the error of data that end too early."""
-        match = re.match(rb"\s*(\S*)", content[end : end + 100].tobytes())
-        return self._word(content, end, match[1] if match else b"")
-
-    def _word(self, content: Bytes, at: int, word: bytes) -> InputError:
-        line = 1 + sum(
-            int(np.count_nonzero(content[first : min(first + _CHUNK, at)] == ord("\n")))
-            for first in range(0, at, _CHUNK)
-        )
-        text = quoted(word.decode(errors="replace"))
-        return InputError(
-            f"tesr = {quoted(str(self.data))}, line {line}: cell of a {self.element} = {text}, "
-            f"must be a whole number from 0 to {_LARGEST}; correct it or the size in **general"
-        )
 
     def _refused(self, why: str) -> InputError:
         return InputError(f"tesr = {quoted(str(self.path))}: {why}")
@@ -293,38 +257,12 @@ def _data(words: Words, content: Bytes, at: int, kind: str) -> tuple[str, Path, 
     return kind, data, 0
 
 
-def _mapped(data: Path) -> Bytes:
-    """Return the content of a plain file, which stays on the disk until it is used."""
+def _mapped(path: Path) -> Bytes:
+    """Return the content of a file, which stays on the disk until it is used."""
     try:
-        if not data.is_file():  # no pipe, which might never end
-            raise OSError("is not a file" if data.exists() else "is missing")
-        if not data.stat().st_size:
-            return np.zeros(0, dtype=np.uint8)
-        return np.memmap(data, dtype=np.uint8, mode="r")
+        return mapped(path)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError(
-            f"tesr = {quoted(str(data))}, cannot be read ({reason}); give a file of Neper"
+            f"tesr = {quoted(str(path))}, cannot be read ({reason}); give a file of Neper"
         ) from None
-
-
-def _chunks(content: Bytes, start: int, end: int) -> Iterator[tuple[int, bytes]]:
-    """Yield position and text of parts that end between words."""
-    while start < end:
-        stop = min(start + _CHUNK, end)
-        if stop < end:
-            blanks = np.flatnonzero(content[start:stop] <= ord(" "))
-            stop = start + int(blanks[-1]) + 1 if len(blanks) else end
-        text = content[start:stop].tobytes()
-        if text.strip():
-            yield start, text
-        start = stop
-
-
-def _first(content: Bytes, byte: int) -> int:
-    """Return the position of a byte, or the length of the content."""
-    for start in range(0, len(content), _CHUNK):
-        found = np.flatnonzero(content[start : start + _CHUNK] == byte)
-        if len(found):
-            return start + int(found[0])
-    return len(content)

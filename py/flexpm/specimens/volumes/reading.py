@@ -15,7 +15,7 @@ from ...errors import InputError
 from ...require import quoted, require_list, require_one_of
 from ..checks import require_length
 from ..labels.majority import majority
-from . import dream3d, npy, raw, tesr, tiff
+from . import dream3d, npy, raw, tesr, tiff, vti, vtk
 from .label_volume import AXES, Crop, LabelVolume, Triple, Window
 from .volume_file import (
     Content,
@@ -33,7 +33,11 @@ _READERS: dict[str, Callable[[Path], VolumeFile]] = {
     ".tesr": tesr.read,
 }
 #: Formats of which a file may have several arrays.
-_NAMED: dict[str, Callable[[Path, str | None], VolumeFile]] = {".dream3d": dream3d.read}
+_NAMED: dict[str, Callable[[Path, str | None], VolumeFile]] = {
+    ".dream3d": dream3d.read,
+    ".vti": vti.read,
+    ".vtk": vtk.read,
+}
 _RAW = ".raw"
 #: Different phases of a volume.
 MOST_PHASES = 100
