@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ...arrays import BoolArray, IntArray
 from ...errors import InputError
-from ...require import Bounds, quoted, require_whole
+from ...require import Bounds, quoted, require_list, require_whole
 from ..labels.whole import KINDS, whole_numbers
 
 #: Values along x, y and z.
@@ -172,7 +172,12 @@ class Window:
         Raises:
             InputError: for a part beyond the volume, or of less than two voxels along an axis.
         """
-        ends = [(0, count) for count in counts] if crop is None else [*crop]
+        ends = [(0, count) for count in counts]
+        if crop is not None:
+            ends = [
+                tuple(require_list(f"{what}: crop", one))
+                for one in require_list(f"{what}: crop", crop)
+            ]
         if len(ends) != 3 or any(len(pair) != 2 for pair in ends):
             raise InputError(
                 f"{what}: crop = {quoted(crop)}, must be two numbers along each of x, y and z; "

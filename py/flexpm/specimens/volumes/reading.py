@@ -16,7 +16,7 @@ from ...require import quoted, require_list, require_one_of
 from ..checks import require_length
 from ..labels.majority import majority
 from . import dream3d, npy, raw, tesr, tiff, vti, vtk
-from .label_volume import AXES, Crop, LabelVolume, Triple, Window
+from .label_volume import AXES, Crop, LabelVolume, Triple, Window, require_counts
 from .volume_file import (
     Content,
     VolumeFile,
@@ -83,6 +83,7 @@ def read(
     file = _head(path, counts, dtype, array)
     spacing, origin = _scale(path, file, voxel, unit)
     name = name_of(path)
+    require_counts(name, file.counts)
     window = Window.of(name, file.counts, crop, coarsen)
     needed = file.bytes_a_voxel * math.prod(file.counts)
     needed += _BYTES_A_VOXEL * math.prod(window.counts)

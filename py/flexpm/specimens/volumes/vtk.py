@@ -30,10 +30,12 @@ _TYPES = {
     **{"char": "i1", "unsigned_char": "u1", "short": "i2", "unsigned_short": "u2"},
     **{"int": "i4", "unsigned_int": "u4", "long": "i8", "unsigned_long": "u8"},
     **{"vtktypeint64": "i8", "vtktypeuint64": "u8", "vtkidtype": "i4"},
-    **{"float": "f4", "double": "f8"},
+    **{"float": "f4", "double": "f8", "unsigned_char of colours": "u1"},
 }
 #: Attributes of a fixed number of components, which cannot be labels.
 _VECTORS = {"VECTORS": 3, "NORMALS": 3, "TENSORS": 9}
+#: Type of colours: bytes, or in texts parts of 255. VTK writes labels of 8 bits so, too.
+_COLOURS = "unsigned_char of colours"
 _LONGEST_LINE, _MOST_COMPONENTS, _MOST_ARRAYS = 1000, 100, 1000
 _NEW_LINE = ord("\n")
 
@@ -130,6 +132,10 @@ class _Reader:
                 self._array(row[0], row[3], counts[0], counts[1], of_cells, number)
         elif kind in _VECTORS and len(words) >= 3:
             self._array(words[1], words[2], _VECTORS[kind], number, of_cells)
+        elif kind == "COLOR_SCALARS" and len(words) >= 3:
+            self._array(words[1], _COLOURS, self._whole(words[2:], "components"), number, of_cells)
+        elif kind == "LOOKUP_TABLE" and len(words) >= 3:
+            self._array(words[1], _COLOURS, 4, self._whole(words[2:], "colours"), of_cells, -1)
         elif kind == "METADATA":
             self._skip_metadata()
         else:
@@ -168,21 +174,26 @@ class _Reader:
                 "give a whole file",
             )
         if expected not in (None, number):
-            return
+            return  # a table of colours, or a field of another size
 
         def values(asked: int) -> Values:
             if not self._is_text:
                 return self._content[start:end].view(form)[:asked]
             try:
+                if kind == _COLOURS:
+                    parts = numbers_of(self._content, start, end, asked, np.dtype(float))
+                    whole: Values = np.rint(255.0 * parts)
+                    return whole
                 return numbers_of(self._content, start, end, asked, form.newbyteorder("="))
             except WrongTextError as error:
                 raise self._wrong(
-                    f"array {quoted(name)}: number = {quoted(error.word)}, must be of type {kind}",
+                    f"array {quoted(name)}: number = {quoted(error.word)}, must be one of {asked} "
+                    f"of type {kind}",
                     "correct it",
                     line_at(self._content, error.position),
                 ) from None
 
-        memory = form.itemsize if self._is_text else 0
+        memory = (16 if kind == _COLOURS else form.itemsize) if self._is_text else 0
         self._arrays.append(Array(name, of_cells, form, components, values, memory))
 
     def _counts(self, words: list[str]) -> Counts:
