@@ -43,6 +43,7 @@ string(JOIN ", " CPACK_DEBIAN_PACKAGE_DEPENDS
     python3-tqdm
     python3-dask python3-distributed python3-pandas python3-tomli-w
     python3-jinja2 libjs-chart.js libjs-three)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS python3-h5py) # volumes of DREAM3D
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
     ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)

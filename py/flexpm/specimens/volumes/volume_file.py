@@ -121,7 +121,7 @@ def require_memory_of(path: Path, counts: Counts, needed: float) -> None:
             path,
             f"voxels = {sized(counts)}, need {needed / 1e9:.3g} GB of memory, must be at most "
             f"{there / 1e9:.3g} GB",
-            "crop or coarsen the volume by the program that wrote it",
+            "crop or coarsen the volume",
         )
 
 
