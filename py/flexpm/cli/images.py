@@ -58,6 +58,12 @@ _smallest = click.option(
     type=click.Path(path_type=Path),
     help="TOML file: label or colour = mineral, or hole.  [default: each label is a grain]",
 )
+@click.option(
+    "--minerals",
+    type=click.Path(path_type=Path),
+    help="Mineral of each grain: CSV file with columns id and mineral, or a second image of the "
+    "same size with the phase of each pixel, which --phases then names.",
+)
 @_thickness
 @_edge
 @_smallest
@@ -67,6 +73,7 @@ def image(
     file: Path,
     pixel: float,
     phases: Path | None,
+    minerals: Path | None,
     thickness: float,
     edge: float | None,
     smallest: int,
@@ -76,24 +83,26 @@ def image(
     """Make the grains of an image: PNG, TIFF, NPY or a .tesr file of Neper.
 
     Each label or colour is a grain. With --phases each is a phase, and the connected regions of a
-    phase are grains.
+    phase are grains. With --minerals each is a grain whose mineral is in a second file.
     """
-    from ..specimens.labels import picture
+    from ..specimens.labels import mineral_table, picture
 
     read = picture.read(file)
-    if phases is None and read.has_voids:
+    if phases is None and minerals is None and read.has_voids:
         raise InputError("image label = 0, is void in a tesr file; give phases with 0 = hole")
     names: list[str] = []
-    minerals = None
-    if phases is not None:
-        names, minerals = picture.indices(picture.read_phases(phases, read))
+    kinds = None
+    if minerals is not None:
+        names, kinds = mineral_table.of_image(minerals, read, phases)
+    elif phases is not None:
+        names, kinds = picture.indices(picture.read_phases(phases, read))
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet):
         inputs.load_yade()
         from ..specimens.specimen import Specimen
 
         made = Specimen.from_labels(
-            read.labels, pixel, thickness, minerals=minerals, edge=edge, smallest=smallest
+            read.labels, pixel, thickness, minerals=kinds, edge=edge, smallest=smallest
         )
     _describe(replace(made, mineral_names=tuple(names)), folder)
 

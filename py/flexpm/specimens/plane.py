@@ -34,9 +34,10 @@ from .kernel_input import (
     mineral_indices,
     ring,
 )
-from .labels import ebsd
-from .labels.given import FILLS, divide
+from .labels import ebsd, mineral_table
+from .labels.given import FILLS, divide, whole_labels
 from .labels.measures import of_grains
+from .labels.picture import Picture
 from .outlines import half_disc_corners, kind_of, polygon_outline
 from .spec import SpecimenSpec
 
@@ -166,6 +167,11 @@ def from_polygons(polygons: Sequence[npt.ArrayLike], thickness: float, holes: bo
 def from_labels(labels: npt.ArrayLike, thickness: float, options: Table) -> Filling:
     """Fill an outline with the grains of an image, see `Specimen.from_labels`."""
     require_length("Specimen.from_labels", "thickness", thickness)
+    names: list[str] = []
+    if isinstance(options["minerals"], str | Path):
+        image = Picture(whole_labels(labels))
+        names, kinds = mineral_table.of_image(Path(options["minerals"]), image)
+        options = options | {"minerals": kinds}
     for fill in FILLS:
         found = divide(labels, **options, least_fill=fill)
         polygons = [np.ascontiguousarray(one) for one in found.polygons]
@@ -182,7 +188,8 @@ def from_labels(labels: npt.ArrayLike, thickness: float, options: Table) -> Fill
         return replace(made, regions=regions)
     minerals = mineral_indices(found.minerals[grains], len(grains))
     spec = replace(made.spec, minerals=checksum(minerals))
-    return replace(made, minerals=minerals, spec=spec, regions=regions)
+    named = replace(made, mineral_names=tuple(names))
+    return replace(named, minerals=minerals, spec=spec, regions=regions)
 
 
 def from_ebsd(path: Path, thickness: float, options: Table) -> Filling:

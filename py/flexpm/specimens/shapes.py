@@ -176,7 +176,7 @@ class PlaneShapes(ABC):
         pixel: float,
         thickness: float,
         *,
-        minerals: Mapping[int, int | None] | None = None,
+        minerals: Mapping[int, int | None] | Path | str | None = None,
         edge: float | None = None,
         smallest: int = 4,
     ) -> Self:
@@ -192,7 +192,10 @@ class PlaneShapes(ABC):
             pixel: Side of a pixel [m].
             thickness: Thickness out of plane [m].
             minerals: For each label an index into the minerals of the material, None for a hole;
-                default: no holes, and minerals are sampled.
+                default: no holes, and minerals are sampled. Or a file: a CSV table with the columns
+                ``id`` (label) and ``mineral`` (name, or ``hole``), or a second image of the same
+                size with the phase of each pixel. A grain has the phase of most of its pixels, and
+                minerals are called ``phase 1`` and so on.
             edge: Distance between corners of a boundary [m], at least two pixels; default: a
                 quarter of the mean diameter of the grains.
             smallest: Regions with fewer pixels join the neighbour with the longest shared line,

@@ -24,6 +24,7 @@ from drawn_images import (
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
+from neper_files import tesr_text
 from PIL import Image
 from refusals import refusal
 from scipy.ndimage import gaussian_filter
@@ -355,3 +356,87 @@ def test_a_palette_is_its_indices(tmp_path):
 def test_the_work_of_a_million_pixels_is_that_of_their_grains():
     """Four times the pixels and twice the grains: twice the loops of Python."""
     assert growth_of(lambda side: made(voronoi(side, 2 * side, 1)), 500, 1000) < 2.2
+
+
+def two_images(folder):
+    """Grains, their minerals, and files with these: a table and a second image with noise."""
+    grains = drawn(6, 40, whole=True).astype(np.int64)
+    ids = np.unique(grains)
+    kinds = {label: number % 3 for number, label in enumerate(ids.tolist())}
+    names = ["quartz", "mica", "hole"]
+    rows = [f"{label},x,{names[kind]}" for label, kind in kinds.items()]
+    (folder / "grains.csv").write_text("id,note,mineral\n" + "\n".join(rows) + "\n999999,,iron\n")
+    second = np.vectorize(kinds.get)(grains).astype(np.uint8) + 4
+    second.flat[np.unique(grains, return_index=True)[1]] = 4  # one pixel of each grain differs
+    Image.fromarray(second).save(folder / "kinds.png")
+    (folder / "kinds.toml").write_text('4 = "quartz"\n5 = "mica"\n6 = "hole"\n')
+    np.save(folder / "grains.npy", grains)
+    index = {label: (0, 1, None)[kind] for label, kind in kinds.items()}
+    return grains, index
+
+
+def test_minerals_of_a_table_and_of_a_second_image_are_those_by_label(tmp_path):
+    grains, index = two_images(tmp_path)
+    expected = Specimen.from_labels(grains, PIXEL, 0.01, minerals=index)
+    for name, phases in (("grains.csv", None), ("kinds.png", "kinds.toml")):
+        given = ["--minerals", str(tmp_path / name)]
+        given += [] if phases is None else ["--phases", str(tmp_path / phases)]
+        assert command(tmp_path, "grains.npy", *given) == 0
+        found = Specimen.load(tmp_path / "out/grains.json")
+        assert np.array_equal(found.minerals, expected.minerals)
+        assert found.mineral_names == ("quartz", "mica")
+        assert len(found.holes) == len(expected.holes)
+    made = Specimen.from_labels(grains, PIXEL, 0.01, minerals=tmp_path / "grains.csv")
+    assert np.array_equal(made.minerals, expected.minerals)
+    assert made.mineral_names == ("quartz", "mica")
+    rock = {label: (0, 1, 2)[(0, 1, None).index(kind)] for label, kind in index.items()}
+    whole = Specimen.from_labels(grains, PIXEL, 0.01, minerals=rock)
+    made = Specimen.from_labels(grains, PIXEL, 0.01, minerals=str(tmp_path / "kinds.png"))
+    assert np.array_equal(made.minerals, whole.minerals)
+    assert made.mineral_names == ("phase 4", "phase 5", "phase 6")
+
+
+def test_files_of_minerals_that_do_not_fit_are_refused(tmp_path, capsys):
+    grains, _ = two_images(tmp_path)
+    first = int(grains.min())
+    table = (tmp_path / "grains.csv").read_text()
+    rows = table.splitlines()
+    Image.fromarray(np.zeros((5, 6), np.uint8)).save(tmp_path / "small.png")
+    many = np.arange(grains.size, dtype=np.int32).reshape(grains.shape)
+    Image.fromarray(many).save(tmp_path / "many.tif")
+    for name, text, words in (
+        ("a.csv", table.replace("id,note", "label,note"), "must have id and mineral, each once"),
+        ("a.csv", "", "must have id and mineral, each once, in the first row"),
+        ("a.csv", "\n".join([rows[0], *rows[2:]]), f"id {first} of a grain is missing; add a row"),
+        ("a.csv", rows[0], "of a grain is missing; so are"),
+        ("a.csv", table + f"{first},,iron\n", f"id {first} = 'iron', was 'quartz' before, must"),
+        ("a.csv", table + "x,,iron\n", "id = 'x', must be a whole number"),
+        ("a.csv", table + "7\n", "cells = 1, must be 3; complete it"),
+        ("a.csv", table + "888888,,\n", "mineral of id 888888 = '', must be a name"),
+        ("no.csv", None, "cannot be read"),
+        ("small.png", None, "of 6 x 5 pixels, must have"),
+        ("many.tif", None, "different ones, must be <= 100; give an image or volume of phases"),
+    ):
+        if text is not None:
+            (tmp_path / name).write_text(text)
+        assert command(tmp_path, "grains.npy", "--minerals", str(tmp_path / name)) == 2
+        line = capsys.readouterr().err
+        assert line.count("\n") == 1 and words in line, line
+    given = ["--minerals", str(tmp_path / "grains.csv"), "--phases", str(tmp_path / "kinds.toml")]
+    assert command(tmp_path, "grains.npy", *given) == 2
+    assert "must not be given with a table of minerals" in capsys.readouterr().err
+
+
+def test_colours_of_grains_are_ids_and_void_stays_void(tmp_path):
+    kinds = np.arange(400).reshape(20, 20) // 140
+    Image.fromarray(COLOURS[kinds]).save(tmp_path / "thin.png")
+    (tmp_path / "a.csv").write_text("mineral,id\nmica,#ff0000\nquartz,#00FF00\nmica,#0000ff\n")
+    assert command(tmp_path, "thin.png", "--minerals", str(tmp_path / "a.csv")) == 0
+    found = Specimen.load(tmp_path / "out/grains.json")
+    assert found.mineral_names == ("mica", "quartz") and sorted(found.minerals) == [0, 0, 1]
+    kinds[8:12, 8:12] = -1
+    (tmp_path / "a.tesr").write_text(tesr_text(kinds + 1))
+    Image.fromarray(np.full((20, 20), 3, np.uint8)).save(tmp_path / "one.png")
+    assert command(tmp_path, "a.tesr", "--minerals", str(tmp_path / "one.png")) == 0
+    found = Specimen.load(tmp_path / "out/grains.json")
+    assert len(found.holes) == 1 and found.mineral_names == ("phase 3",)

@@ -148,20 +148,25 @@ def read_phases(path: Path, picture: Picture) -> dict[int, str]:
     content: Table = load_toml(path, "phases")
     found: dict[int, str] = {}
     for key, name in content.items():
-        found[_label(key, picture)] = require_name(f"phases {quoted(key)}", name)
+        found[label_of("phases key", key, picture)] = require_name(f"phases {quoted(key)}", name)
     if not found:
         raise InputError(f"phases = {quoted(str(path))}, is empty; give label = mineral")
     _require_all(found, picture, path)
     return found
 
 
-def _label(key: str, picture: Picture) -> int:
+def label_of(what: str, key: str, picture: Picture) -> int:
+    """Return the label that a text stands for: a whole number, or a colour.
+
+    Raises:
+        InputError: for a text that is not in the notation of the image.
+    """
     rule = "a colour #rrggbb" if picture.has_colours else "a whole number"
     if picture.has_colours and _COLOUR.fullmatch(key):
         return int(key[1:], 16)
     if not picture.has_colours and re.fullmatch(r"-?[0-9]{1,18}", key):
         return int(key)
-    raise InputError(f"phases key = {quoted(key)}, must be {rule} as in the image; correct it")
+    raise InputError(f"{what} = {quoted(key)}, must be {rule} as in the image; correct it")
 
 
 def _require_all(found: Mapping[int, str], picture: Picture, path: Path) -> None:
