@@ -7,10 +7,11 @@ import re
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+from ...arrays import AnyArray, NumberType
 
 Bytes = npt.NDArray[np.uint8]
 #: Text that is converted at a time [byte].
@@ -45,9 +46,7 @@ def mapped(path: Path) -> Bytes:
     return np.memmap(path, dtype=np.uint8, mode="r")
 
 
-def numbers_of(
-    content: Bytes, start: int, end: int, number: int, form: np.dtype[Any]
-) -> npt.NDArray[Any]:
+def numbers_of(content: Bytes, start: int, end: int, number: int, form: NumberType) -> AnyArray:
     """Return the numbers of a text.
 
     Args:
@@ -69,7 +68,7 @@ def numbers_of(
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             try:
-                part: npt.NDArray[Any] = np.fromstring(text, dtype=wide, sep=" ")
+                part: AnyArray = np.fromstring(text, dtype=wide, sep=" ")
             except (ValueError, DeprecationWarning):
                 raise _wrong(at, text, form) from None
         if form.kind in "iu":
@@ -130,7 +129,7 @@ def _chunks(content: Bytes, start: int, end: int) -> Iterator[tuple[int, bytes]]
         start = stop
 
 
-def _wrong(at: int, text: bytes, form: np.dtype[Any]) -> WrongTextError:
+def _wrong(at: int, text: bytes, form: NumberType) -> WrongTextError:
     """Return the error of the first word that is not a number of a type."""
     for match in re.finditer(rb"\S+", text):
         if not _is_number(match[0], form):
@@ -138,7 +137,7 @@ def _wrong(at: int, text: bytes, form: np.dtype[Any]) -> WrongTextError:
     return WrongTextError(at, text[:20].decode(errors="replace"))
 
 
-def _is_number(word: bytes, form: np.dtype[Any]) -> bool:
+def _is_number(word: bytes, form: NumberType) -> bool:
     if form.kind in "iu":
         limits = np.iinfo(form)
         is_whole = re.fullmatch(rb"[+-]?[0-9]{1,19}", word) is not None

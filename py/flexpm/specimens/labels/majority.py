@@ -3,20 +3,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-import numpy.typing as npt
 
-from ...arrays import IntArray
+from ...arrays import AnyArray, IntArray
 
 #: Pixels that are counted at a time.
 _BLOCK = 2**22
 
 
-def majority(
-    grains: npt.NDArray[Any], phases: npt.NDArray[Any], number: int, kinds: int
-) -> IntArray:
+def majority(grains: AnyArray, phases: AnyArray, number: int, kinds: int) -> IntArray:
     """Return the phase that most elements of each grain have; of equally many the lowest one.
 
     Args:

@@ -6,12 +6,10 @@ from __future__ import annotations
 import csv
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from ...arrays import IntArray
+from ...arrays import AnyArray, IntArray
 from ...errors import InputError
 from ...files import csv_rows, read_text
 from ...require import quoted, require_name
@@ -102,9 +100,9 @@ def read(path: Path, ids: IntArray, image: Picture | None = None) -> Minerals:
 def by_majority(
     source: str,
     ids: IntArray,
-    grains: npt.NDArray[Any],
+    grains: AnyArray,
     kinds: IntArray,
-    numbers: npt.NDArray[Any],
+    numbers: AnyArray,
     named: Mapping[int, str],
 ) -> Minerals:
     """Return the mineral that most pixels or voxels of each label have.

@@ -9,12 +9,11 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ...arrays import IntArray
+from ...arrays import AnyArray, IntArray
 from ...errors import InputError
 from ...require import quoted
 from ..files.neper_text import Words
@@ -77,7 +76,7 @@ class Raster:
         """Word for an element of the raster."""
         return "pixel" if len(self.counts) == 2 else "voxel"
 
-    def labels(self) -> npt.NDArray[Any]:
+    def labels(self) -> AnyArray:
         """Return the label of each element, x fastest, then y; 0 is void.
 
         Raises:
@@ -100,7 +99,7 @@ class Raster:
         named: npt.NDArray[np.int32] = table[found]
         return named
 
-    def _numbers(self, content: Bytes) -> npt.NDArray[Any]:
+    def _numbers(self, content: Bytes) -> AnyArray:
         """Return data that are bytes, which stay in the file."""
         form = np.dtype(_BINARY[self.form])
         rest = content[self.start :]
@@ -116,7 +115,7 @@ class Raster:
             )
         return rest[:size].view(form)
 
-    def _text(self, content: Bytes) -> npt.NDArray[Any]:
+    def _text(self, content: Bytes) -> AnyArray:
         """Return data that are text; they are converted in parts."""
         end = first_of(content, ord("*"), self.start)
         try:

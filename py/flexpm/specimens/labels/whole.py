@@ -4,12 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from ...arrays import IntArray
+from ...arrays import AnyArray, IntArray
 from ...errors import InputError
 
 #: Kinds of numbers that labels may have: truth values, whole numbers, and floats that are whole.
@@ -19,9 +17,7 @@ _MOST_FLOAT = 2.0**53
 _INT = np.iinfo(np.int64)
 
 
-def whole_numbers(
-    what: str, given: npt.NDArray[Any], position: Callable[[list[int]], str]
-) -> IntArray:
+def whole_numbers(what: str, given: AnyArray, position: Callable[[list[int]], str]) -> IntArray:
     """Return labels as integers of 64 bits.
 
     Args:

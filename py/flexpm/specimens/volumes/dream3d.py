@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...arrays import IntArray
+from ...arrays import AnyArray, IntArray
 from ...errors import InputError
 from ...require import quoted
 from ..labels.image_files import BROKEN, short
 from ..labels.whole import KINDS
-from .label_volume import Counts, Triple, Values
+from .label_volume import Counts, Triple
 from .volume_file import (
     Content,
     VolumeFile,
@@ -179,7 +179,7 @@ def _geometry(path: Path, group: h5py.Group, children: Mapping[str, object]) -> 
     return _Geometry(str(group.name), (x, y, z), spacing, origin)
 
 
-def _small(dataset: object) -> Values | None:
+def _small(dataset: object) -> AnyArray | None:
     """Return the few numbers of a dataset."""
     import h5py
 
@@ -230,7 +230,7 @@ def _is_of_voxels(dataset: h5py.Dataset, counts: Counts) -> bool:
     return dataset.dtype.kind in KINDS and dataset.shape in (shape, shape[:3])
 
 
-def _voxels(path: Path, dataset: h5py.Dataset, counts: Counts) -> Values:
+def _voxels(path: Path, dataset: h5py.Dataset, counts: Counts) -> AnyArray:
     if dataset.external is not None or dataset.is_virtual:
         raise refused(path, f"{dataset.name} lies in other files, must not", "save it in one file")
     return np.asarray(dataset[()]).reshape(counts[::-1])

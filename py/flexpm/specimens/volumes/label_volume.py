@@ -5,24 +5,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ...arrays import BoolArray, IntArray
+from ...arrays import AnyArray, BoolArray, IntArray
 from ...errors import InputError
 from ...require import Bounds, quoted, require_list, require_whole
 from ..labels.whole import KINDS, whole_numbers
 
-#: Values along x, y and z.
+#: AnyArray along x, y and z.
 Triple = tuple[float, float, float]
 Counts = tuple[int, int, int]
 #: First voxel, and the voxel after the last one, along x, y and z.
 Crop = Sequence[tuple[int, int]]
 Labels = npt.NDArray[np.int32]
-#: Numbers of any type.
-Values = npt.NDArray[Any]
 AXES = ("x", "y", "z")
 #: Least number of voxels along each axis.
 LEAST = 2
@@ -61,7 +58,7 @@ class LabelVolume:
     @classmethod
     def of(
         cls,
-        values: Values,
+        values: AnyArray,
         spacing: Triple,
         origin: Triple = (0.0, 0.0, 0.0),
         *,
@@ -208,7 +205,7 @@ class Window:
         return (x, y, z), (corner[0], corner[1], corner[2])
 
 
-def counts_of(values: Values) -> Counts:
+def counts_of(values: AnyArray) -> Counts:
     """Return the number of voxels along x, y, z of an array (z, y, x)."""
     z, y, x = values.shape
     return x, y, z
@@ -243,7 +240,7 @@ def _blocks(shape: tuple[int, ...]) -> Iterator[tuple[slice, slice]]:
             yield slice(z, z + deep), slice(y, y + high)
 
 
-def _indexed(what: str, values: Values) -> tuple[Labels, IntArray]:
+def _indexed(what: str, values: AnyArray) -> tuple[Labels, IntArray]:
     """Return the index of each voxel's label among the sorted labels, and these."""
     blocks = [*_blocks(values.shape)]
 

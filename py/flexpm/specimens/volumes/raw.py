@@ -7,10 +7,10 @@ import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from ...arrays import NumberType
 from ...errors import InputError
 from ...require import Bounds, quoted, require_list, require_text, require_whole
 from .label_volume import AXES, Counts
@@ -87,7 +87,7 @@ def _counts(counts: object) -> Counts:
     return x, y, z
 
 
-def _form(dtype: object) -> np.dtype[Any]:
+def _form(dtype: object) -> NumberType:
     match = re.fullmatch(r"([<>]?)(\w+)", require_text("dtype", dtype))
     if match is None or match[2] not in _TYPES:
         raise InputError(

@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...arrays import AnyArray
 from ...errors import InputError
 from ..labels import image_files
-from .label_volume import Triple, Values
+from .label_volume import Triple
 from .volume_file import Content, VolumeFile, name_of, refused, require_file, require_size
 
 if TYPE_CHECKING:
@@ -133,7 +134,7 @@ def _opened(path: Path) -> Any:
     return image_files.opened(path, broken)
 
 
-def _take(path: Path, what: str, image: ImageFile, into: Values) -> None:
+def _take(path: Path, what: str, image: ImageFile, into: AnyArray) -> None:
     """Read a page into a layer of the volume, of whose size and type it must be."""
     if (image.height, image.width) != into.shape:
         raise refused(
@@ -152,7 +153,7 @@ def _take(path: Path, what: str, image: ImageFile, into: Values) -> None:
     into[...] = found
 
 
-def _values(path: Path, what: str, image: ImageFile, head: bool = False) -> Values:
+def _values(path: Path, what: str, image: ImageFile, head: bool = False) -> AnyArray:
     """Return the labels of a page; for the head an array that has only their type."""
     if image.mode not in _MODES:
         raise refused(

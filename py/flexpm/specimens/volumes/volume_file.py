@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ...arrays import IntArray
+from ...arrays import AnyArray, IntArray
 from ...errors import InputError
 from ...require import quoted
 from ..checks import available_memory
-from .label_volume import AXES, Counts, Triple, Values, require_counts, sized
+from .label_volume import AXES, Counts, Triple, require_counts, sized
 
 #: Largest ratio of voxels to bytes of a file, which no compression of these formats exceeds.
 _MOST_VOXELS_A_BYTE = 4096
@@ -32,9 +32,9 @@ class Content:
         has_voids: Whether label 0 stands for no rock.
     """
 
-    values: Values
+    values: AnyArray
     phases: tuple[IntArray, IntArray] | None = None
-    phase_values: Values | None = None
+    phase_values: AnyArray | None = None
     phase_names: Mapping[int, str] = field(default_factory=dict)
     has_voids: bool = False
 

@@ -20,10 +20,11 @@ from typing import Any
 
 import numpy as np
 
+from ...arrays import AnyArray, NumberType
 from ...errors import InputError
 from ...require import quoted
 from ..files.number_text import Bytes, WrongTextError, line_at, numbers_of
-from .label_volume import Counts, Values
+from .label_volume import Counts
 from .volume_file import VolumeFile, refused, triple_of
 from .vtk_arrays import MOST_ALONG, Array, Grid, content_of, volume_of
 
@@ -167,7 +168,7 @@ class _Image:
         how = tag.attributes.get("format", "ascii")
         name = tag.attributes.get("Name", "")
 
-        def values(number: int) -> Values:
+        def values(number: int) -> AnyArray:
             try:
                 if how == "ascii":
                     return numbers_of(self._content, tag.end, end, number, form.newbyteorder("="))
@@ -219,7 +220,7 @@ class _Image:
 class _Stream:
     """Bytes of an array and the words before them."""
 
-    def __init__(self, content: Bytes, is_raw: bool, word: np.dtype[Any]) -> None:
+    def __init__(self, content: Bytes, is_raw: bool, word: NumberType) -> None:
         if not is_raw:
             blank = np.flatnonzero(content[:1000] > ord(" "))
             content = content[int(blank[0]) :] if len(blank) else content[:0]

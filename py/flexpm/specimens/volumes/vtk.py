@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...arrays import AnyArray
 from ...errors import InputError
 from ...require import quoted
 from ..files.number_text import (
@@ -22,7 +23,7 @@ from ..files.number_text import (
     line_at,
     numbers_of,
 )
-from .label_volume import Counts, Values
+from .label_volume import Counts
 from .volume_file import VolumeFile, refused, triple_of
 from .vtk_arrays import MOST_ALONG, Array, Grid, content_of, volume_of
 
@@ -176,13 +177,13 @@ class _Reader:
         if expected not in (None, number):
             return  # a table of colours, or a field of another size
 
-        def values(asked: int) -> Values:
+        def values(asked: int) -> AnyArray:
             if not self._is_text:
                 return self._content[start:end].view(form)[:asked]
             try:
                 if kind == _COLOURS:
                     parts = numbers_of(self._content, start, end, asked, np.dtype(float))
-                    whole: Values = np.rint(255.0 * parts)
+                    whole: AnyArray = np.rint(255.0 * parts)
                     return whole
                 return numbers_of(self._content, start, end, asked, form.newbyteorder("="))
             except WrongTextError as error:

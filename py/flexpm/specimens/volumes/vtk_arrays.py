@@ -10,12 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-import numpy as np
-
+from ...arrays import AnyArray, NumberType
 from ..files.number_text import Bytes, mapped
-from .label_volume import Counts, Triple, Values
+from .label_volume import Counts, Triple
 from .volume_file import Content, VolumeFile, refused, require_file, require_size
 
 #: Most voxels along an axis.
@@ -37,9 +35,9 @@ class Array:
 
     name: str
     of_cells: bool
-    form: np.dtype[Any]
+    form: NumberType
     components: int
-    values: Callable[[int], Values]
+    values: Callable[[int], AnyArray]
     bytes_a_number: float
 
 
