@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import io
+import locale
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -152,13 +154,13 @@ def vtk(labels, as_text=False, **options):
 
 
 def _written(writer: Any, suffix: str) -> bytes:
-    """What a writer of VTK writes; texts that it returns may end at the first zero."""
-    import tempfile
-
+    """What a writer of VTK writes into a file; it changes the locale of the process."""
+    before = locale.setlocale(locale.LC_ALL)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, f"a.{suffix}")
         writer.SetFileName(str(path))
         assert writer.Write() == 1
+        locale.setlocale(locale.LC_ALL, before)
         return path.read_bytes()
 
 
