@@ -25,6 +25,7 @@ from volume_files import (
     write,
 )
 
+from flexpm.specimens.labels import picture
 from flexpm.specimens.volumes import label_volume, volume_file
 from flexpm.specimens.volumes.label_volume import LabelVolume
 from flexpm.specimens.volumes.reading import read
@@ -210,6 +211,9 @@ def test_cells_of_a_raster_have_identifiers_and_groups(tmp_path):
     assert dict(zip(found.ids.tolist(), found.phases.tolist(), strict=True)) == {
         **{0: 0, 11: 1, 12: 1, 13: 2, 15: 1, 16: 1, 17: 2, 18: 2, 8: 7}
     }
+    assert found.crop(((0, 7), (0, 6), (0, 5))).has_voids
+    path.write_bytes(tesr(0 * LABELS, cell=" **cell\n   0\n  *group\n"))
+    assert read(path, unit="mm").phases is None
     plain = tesr(LABELS, cell=cell.replace("*group", "*phase").replace("11 12", "1 2"))
     path.write_bytes(plain)
     assert read(path, unit="mm").phases.tolist() == [1, 1, 7, 2, 2, 1, 1, 2, 2]
@@ -308,6 +312,8 @@ def refused_files(folder):
         ("a.vtk", good["t.vtk"][:-200], "array 'ids': number = '', must be one of 210 of type", {}),
         ("a.vtk", good["b.vtk"][:-200], "array 'ids' = less than 210 numbers, must be 210", {}),
         ("a.vtk", b"x", "must begin with # vtk DataFile", {}),
+        ("a.raw", b"a" * 210, "array = 'b', is for .dream3d, .vti, .vtk files", {"array": "b"}),
+        ("a.tesr", tesr(LABELS, origin=(1e9, 0.0, 0.0)), "origin along x = 1000000000.0 m", {}),
         ("a.xyz", b"", "must be a folder of slices or end in .tif", {}),
         ("a.npy", npy(LABELS), "voxel along y = 0 m, must be > 0", {"voxel": (1, 0, 1)}),
         ("a.npy", npy(LABELS), "voxel = (1, 2), must be one number or three", {"voxel": (1, 2)}),
@@ -327,6 +333,13 @@ def test_what_is_refused_is_told_in_one_line(tmp_path):
     os.mkfifo(tmp_path / "p.npy")  # nobody writes into it
     refusal("'.*p.npy', is not a file; give the file", read, tmp_path / "p.npy", voxel=1.0)
     refusal("is missing|cannot be read", read, "a\0.npy", voxel=1.0)
+
+
+@pytest.mark.parametrize("name", ["a.raw", "a.dream3d", "a.vti", "a.vtk", "a.npy", "a.tif"])
+def test_a_volume_given_as_an_image_is_sent_to_the_command_of_volumes(tmp_path, name):
+    path = tmp_path / name
+    path.write_bytes({"a.npy": npy(LABELS), "a.tif": tiff(LABELS)}.get(name, b"a"))
+    refusal("flexpm specimen volume reads volumes; save one slice", picture.read, path)
 
 
 def test_folders_of_slices_that_are_not_whole_are_refused(tmp_path):

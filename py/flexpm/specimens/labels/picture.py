@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 #: What a phase is called that is no rock.
 HOLE_NAME = "hole"
+#: Endings of files that have volumes only.
+_VOLUMES = (".raw", ".dream3d", ".vti", ".vtk")
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
@@ -54,6 +56,11 @@ def read(path: Path) -> Picture:
         InputError: for a file that cannot be read, has several pages, more pixels than the limit,
             or values that are not integers.
     """
+    if path.suffix.lower() in _VOLUMES:
+        raise InputError(
+            f"image = {quoted(str(path))}, must be a PNG, TIFF, NPY or TESR file: {NO_VOLUMES}; "
+            "save one slice"
+        )
     if path.suffix.lower() == ".npy":
         return _from_array(path)
     if path.suffix.lower() == ".tesr":

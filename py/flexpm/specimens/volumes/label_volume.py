@@ -42,7 +42,7 @@ class LabelVolume:
         origin: Corner of the first voxel, x, y, z [m].
         phases: Index of each label's phase from the file; None without phases.
         phase_names: Names of phases from the file, by index.
-        has_voids: Whether label 0 stands for no rock.
+        has_voids: Whether some voxels have label 0, which stands for no rock.
         source: Name of the file without its folder.
     """
 
@@ -137,10 +137,12 @@ class LabelVolume:
         numbers = (np.cumsum(there) - 1).astype(np.int32)
         for at in _blocks(cut.shape):
             cut[at] = numbers[cut[at]]
+        ids = self.ids[there]
         return replace(
             self,
             labels=cut,
-            ids=self.ids[there],
+            ids=ids,
+            has_voids=self.has_voids and bool((ids == 0).any()),
             spacing=spacing,
             origin=origin,
             phases=None if self.phases is None else self.phases[there],

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...arrays import IntArray
 from ...errors import InputError
-from ...require import quoted, require_list, require_one_of
+from ...require import Bounds, quoted, require_list, require_number, require_one_of
 from ..checks import require_length
 from ..labels.majority import majority
 from . import dream3d, npy, raw, tesr, tiff, vti, vtk
@@ -39,6 +39,8 @@ _NAMED: dict[str, Callable[[Path, str | None], VolumeFile]] = {
     ".vtk": vtk.read,
 }
 _RAW = ".raw"
+#: Largest distance of the first voxel from 0 [m].
+_FARTHEST = 1e6
 #: Different phases of a volume.
 MOST_PHASES = 100
 #: Memory of the labels and of the tables that number them, for each voxel [byte].
@@ -104,7 +106,13 @@ def _head(
 ) -> VolumeFile:
     """Return the head of a file, by the reader of its suffix."""
     suffix = path.suffix.lower()
-    if suffix == _RAW and array is None:
+    if array is not None and suffix not in _NAMED:
+        raise refused(
+            path,
+            f"array = {quoted(array)}, is for {', '.join(_NAMED)} files only",
+            "leave array out",
+        )
+    if suffix == _RAW:
         return raw.read(path, counts, dtype)
     for key, value in (("counts", counts), ("dtype", dtype)):
         if value is not None:
@@ -113,12 +121,6 @@ def _head(
             )
     if suffix in _NAMED:
         return _NAMED[suffix](path, array)
-    if array is not None:
-        raise refused(
-            path,
-            f"array = {quoted(array)}, is for {', '.join(_NAMED)} files only",
-            "leave array out",
-        )
     if _is_folder(path):
         return tiff.read_folder(path)
     if suffix not in _READERS:
@@ -149,8 +151,7 @@ def _scale(
             )
         given = _sizes(voxel)
         steps = file.spacing or given
-        corner = [o / d * h for o, d, h in zip(file.origin, steps, given, strict=True)]
-        return given, (corner[0], corner[1], corner[2])
+        return given, _corner(path, [h / d for d, h in zip(steps, given, strict=True)], file.origin)
     if file.spacing is None:
         raise refused(path, "size of a voxel is missing in the file", "give voxel in metres")
     if file.metres is None and unit is None:
@@ -167,8 +168,17 @@ def _scale(
         require_length(name_of(path), f"spacing along {axis}", metres * size)
         for axis, size in zip(AXES, file.spacing, strict=True)
     )
-    corner = [metres * o for o in file.origin]
-    return (x, y, z), (corner[0], corner[1], corner[2])
+    return (x, y, z), _corner(path, [metres] * 3, file.origin)
+
+
+def _corner(path: Path, metres: Sequence[float], origin: Triple) -> Triple:
+    """Return the corner of the first voxel [m] from its lengths in units of `metres`."""
+    bounds = Bounds(at_least=-_FARTHEST, at_most=_FARTHEST)
+    x, y, z = (
+        require_number(f"{name_of(path)}: origin along {axis}", unit * length, bounds, "m")
+        for axis, unit, length in zip(AXES, metres, origin, strict=True)
+    )
+    return x, y, z
 
 
 def _sizes(voxel: object) -> Triple:
@@ -187,7 +197,7 @@ def _sizes(voxel: object) -> Triple:
 
 def _phases(path: Path, made: LabelVolume, content: Content, window: Window) -> IntArray | None:
     """Return the phase of each label of a volume, from a table of the file or by its voxels."""
-    if content.phases is not None:
+    if content.phases is not None and len(content.phases[0]):
         known, numbers = content.phases
         order = np.argsort(known, kind="stable")
         at = order[np.minimum(np.searchsorted(known[order], made.ids), len(known) - 1)]
