@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import struct
 import sys
 import tracemalloc
 
@@ -114,6 +115,23 @@ def test_sizes_of_imagej_are_read(tmp_path, unit, metres):
     for other in (text.replace(unit, "pixel"), text.replace("ImageJ", "Other"), None):
         (tmp_path / "b.tif").write_bytes(tiff(LABELS, other, (0.5, 0.25)))
         refusal("size of a voxel is missing in the file; give voxel", read, tmp_path / "b.tif")
+
+
+def test_numbers_of_pages_whose_0_is_white_are_those_of_the_file(tmp_path):
+    content, tag = tiff(LABELS), struct.pack("<HHI", 262, 3, 1)
+    assert content.count(tag + b"\x01") == len(LABELS)
+    (tmp_path / "a.tif").write_bytes(content.replace(tag + b"\x01", tag + b"\x00"))
+    found = read(tmp_path / "a.tif", voxel=1.0)
+    assert np.array_equal(found.ids[found.labels], LABELS)
+
+
+def test_unsigned_pages_of_32_bits_are_read_as_such(tmp_path):
+    """Pillow writes 32 bits with a sign only; the tag of the sign is 339."""
+    content, tag = tiff(LABELS.astype(np.int32) - 3), struct.pack("<HHI", 339, 3, 1)
+    assert content.count(tag + b"\x02") == len(LABELS)
+    (tmp_path / "a.tif").write_bytes(content.replace(tag + b"\x02", tag + b"\x01"))
+    found = read(tmp_path / "a.tif", voxel=1.0)
+    assert np.array_equal(found.ids[found.labels], (LABELS.astype(int) - 3) % 2**32)
 
 
 @pytest.mark.parametrize("kind", ["u1", "i1", "u2", "i2", "u4", "i4", "u8", "i8", "f4", "f8"])
@@ -275,8 +293,8 @@ def refused_files(folder):
             {"counts": (7, 6, 5), "dtype": "<u2"},
         ),
         ("a.tif", tiff(LABELS[:1]), "must be >= 2 along z; give a volume, or one slice", {}),
-        ("a.tif", tiff(LABELS)[:300], "must be a TIFF stack or PNG slices", {}),
-        ("a.tif", b"II*\0", "must be a TIFF stack or PNG slices", {}),
+        ("a.tif", tiff(LABELS)[:300], "must be a TIFF stack or PNG slices of", {}),
+        ("a.tif", b"II*\0", "must be a TIFF stack or PNG slices of", {}),
         (
             *("a.tif", tiff(LABELS[:1], "ImageJ=1\nimages=5\n")),
             *("pages = 1, must be 5 by ImageJ's description", {}),

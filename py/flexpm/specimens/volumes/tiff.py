@@ -27,7 +27,8 @@ SUFFIXES = (".tif", ".tiff")
 _SLICES = (*SUFFIXES, ".png")
 #: Modes of Pillow that are labels: truth values, grey levels, indices of a palette.
 _MODES = ("1", "L", "P", "I", "I;16", "I;16B", "I;16L", "F")
-_DESCRIPTION, _RESOLUTION, _SAMPLE_FORMAT, _UNSIGNED = 270, (282, 283), 339, 1
+_DESCRIPTION, _RESOLUTION = 270, (282, 283)
+_SAMPLE_FORMAT, _UNSIGNED, _PHOTOMETRIC, _WHITE_IS_0 = 339, 1, 262, 0
 #: Lengths of the units of ImageJ [m].
 _UNITS = {
     **{"m": 1.0, "meter": 1.0, "cm": 1e-2, "mm": 1e-3, "nm": 1e-9, "inch": 0.0254},
@@ -129,7 +130,8 @@ def _opened(path: Path) -> Any:
     """Open an image, with errors that name the file."""
 
     def broken(reason: str) -> InputError:
-        return refused(path, f"must be a TIFF stack or PNG slices: {reason}", "give a whole file")
+        told = f"must be a TIFF stack or PNG slices of 8 to 32 bits: {reason}"
+        return refused(path, told, "give a whole file")
 
     return image_files.opened(path, broken)
 
@@ -170,6 +172,8 @@ def _values(path: Path, what: str, image: ImageFile, head: bool = False) -> AnyA
     tags = getattr(image, "tag_v2", {})
     if image.mode == "I" and tags.get(_SAMPLE_FORMAT, (_UNSIGNED,))[0] == _UNSIGNED:
         found = found.view(np.uint32) if tags else found
+    if image.mode in ("1", "L") and tags.get(_PHOTOMETRIC) == _WHITE_IS_0:
+        found = ~found  # the numbers of the file, which Pillow turns into grey levels
     return found
 
 
