@@ -33,7 +33,7 @@ VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --po
     --halvings --misorientation --scale --short-edge --confinements""".split()
 FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothing"]
 NAMED = """--model --material --mesh --start --loading --wave --sides --control --film --specimen
-    --joints --name --network --phases --shape
+    --joints --minerals --name --network --phases --shape
     --models --unindexed --size --rock""".split()
 #: Options that are given below, or that lead to other files, long work or other machines.
 NOT_DRAWN = """--width --height --out --quiet --steps --scaling --large --json --scheduler

@@ -357,6 +357,7 @@ def test_what_is_refused_is_told_in_one_line(tmp_path):
 def test_a_volume_given_as_an_image_is_sent_to_the_command_of_volumes(tmp_path, name):
     path = tmp_path / name
     path.write_bytes({"a.npy": npy(LABELS), "a.tif": tiff(LABELS)}.get(name, b"a"))
+    refusal("flexpm specimen volume reads volumes; save one slice", picture.read, tmp_path)
     refusal("flexpm specimen volume reads volumes; save one slice", picture.read, path)
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -56,7 +57,7 @@ def read(path: Path) -> Picture:
         InputError: for a file that cannot be read, has several pages, more pixels than the limit,
             or values that are not integers.
     """
-    if path.suffix.lower() in _VOLUMES:
+    if _is_volume(path):
         raise InputError(
             f"image = {quoted(str(path))}, must be a PNG, TIFF, NPY or TESR file: {NO_VOLUMES}; "
             "save one slice"
@@ -75,6 +76,13 @@ def read(path: Path) -> Picture:
 
     with image_files.opened(path, refused) as image:
         return _from_open(image)
+
+
+def _is_volume(path: Path) -> bool:
+    """Whether a file has another format than images, or a path is a folder of slices."""
+    with contextlib.suppress(OSError, ValueError):  # not the name of a file
+        return path.suffix.lower() in _VOLUMES or path.is_dir()
+    return False
 
 
 def _from_open(image: ImageFile) -> Picture:

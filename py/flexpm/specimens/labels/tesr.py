@@ -223,7 +223,9 @@ def _cells(words: Words) -> tuple[int | None, IntArray | None, IntArray | None, 
         found[section] = np.array(rows, dtype=np.int64)
     ids = found.get("*id")
     if ids is not None and len(np.unique(ids[ids > 0])) < len(ids):
-        raise words.refused("*id = 0 or the same number twice, must be different numbers from 1 on")
+        raise words.refused(
+            "*id = 0 or the same number twice, must be different numbers from 1 on; correct it"
+        )
     if ids is not None and np.array_equal(ids, np.arange(1, len(ids) + 1)):
         ids = None
     return cells, ids, found.get("*phase", found.get("*group")), section

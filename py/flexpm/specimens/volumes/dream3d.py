@@ -78,18 +78,19 @@ def read(path: Path, array: str | None = None) -> VolumeFile:
         bytes_a_voxel = labels.dtype.itemsize
         if by_feature is None and by_voxel is not None:
             bytes_a_voxel += geometry.arrays[by_voxel].dtype.itemsize
-        names = _phase_names(geometry)
+        names = _phase_names(path, geometry)
     require_size(path, geometry.counts, size, bytes_a_voxel)
 
     def load() -> Content:
         with _opened(path) as file:
-            values = _voxels(path, file[name], geometry.counts)
+            shape = geometry.counts[::-1]
+            values = _numbers(path, file[name]).reshape(shape)
             phases, phase_values = None, None
             if by_feature is not None:
-                numbers: IntArray = np.asarray(file[by_feature]).ravel().astype(np.int64)
+                numbers: IntArray = _numbers(path, file[by_feature]).ravel().astype(np.int64)
                 phases = (np.arange(len(numbers)), numbers)
             elif by_voxel is not None:
-                phase_values = _voxels(path, file[by_voxel], geometry.counts)
+                phase_values = _numbers(path, file[by_voxel]).reshape(shape)
             return Content(values, phases, phase_values, names, has_voids=True)
 
     return VolumeFile(geometry.counts, load, bytes_a_voxel, geometry.spacing, geometry.origin)
@@ -164,7 +165,7 @@ def _geometry(path: Path, group: h5py.Group, children: Mapping[str, object]) -> 
         given = [group.attrs.get(key) for key in new]
     elif isinstance(holder, h5py.Group) and old[0] in holder:
         inner = _children(holder)
-        given = [_small(inner.get(key)) for key in old]
+        given = [_small(path, inner.get(key)) for key in old]
     else:
         return None
     where = f"{group.name}: "
@@ -179,12 +180,19 @@ def _geometry(path: Path, group: h5py.Group, children: Mapping[str, object]) -> 
     return _Geometry(str(group.name), (x, y, z), spacing, origin)
 
 
-def _small(dataset: object) -> AnyArray | None:
+def _small(path: Path, dataset: object) -> AnyArray | None:
     """Return the few numbers of a dataset."""
     import h5py
 
     if not isinstance(dataset, h5py.Dataset) or not dataset.size or dataset.size > 3:
         return None
+    return _numbers(path, dataset)
+
+
+def _numbers(path: Path, dataset: h5py.Dataset) -> AnyArray:
+    """Return the numbers of an array, which must be in the file itself."""
+    if dataset.external is not None or dataset.is_virtual:
+        raise refused(path, f"{dataset.name} lies in other files, must not", "save it in one file")
     return np.asarray(dataset[()])
 
 
@@ -230,12 +238,6 @@ def _is_of_voxels(dataset: h5py.Dataset, counts: Counts) -> bool:
     return dataset.dtype.kind in KINDS and dataset.shape in (shape, shape[:3])
 
 
-def _voxels(path: Path, dataset: h5py.Dataset, counts: Counts) -> AnyArray:
-    if dataset.external is not None or dataset.is_virtual:
-        raise refused(path, f"{dataset.name} lies in other files, must not", "save it in one file")
-    return np.asarray(dataset[()]).reshape(counts[::-1])
-
-
 def _phase_arrays(geometry: _Geometry, labels: str) -> tuple[str | None, str | None]:
     """Return the names of the phases of features, and of those of voxels."""
     beside = f"{labels.rpartition('/')[0]}/{_PHASES}"
@@ -258,14 +260,14 @@ def _phase_arrays(geometry: _Geometry, labels: str) -> tuple[str | None, str | N
     )
 
 
-def _phase_names(geometry: _Geometry) -> dict[int, str]:
+def _phase_names(path: Path, geometry: _Geometry) -> dict[int, str]:
     """Return the names of the phases by their number, from 1."""
     for name, dataset in geometry.arrays.items():
         if name.rpartition("/")[2] != _PHASE_NAMES or dataset.size > _MOST_PHASES:
             continue
         rows = [
             row.decode(errors="replace") if isinstance(row, bytes) else str(row)
-            for row in np.asarray(dataset[()]).ravel().tolist()
+            for row in _numbers(path, dataset).ravel().tolist()
         ]
         return {number: row.strip("\0 ") for number, row in enumerate(rows) if number}
     return {}
