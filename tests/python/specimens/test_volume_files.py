@@ -159,6 +159,14 @@ def test_ids_may_have_gaps_and_grains_one_voxel():
         assert np.array_equal(found.ids, ids)
         assert np.array_equal(found.ids[found.labels], values)
     assert found.voxels.sum() == 8000
+    assert LabelVolume.of(values, 0.1).spacing == (0.1, 0.1, 0.1)
+    refusal("voxel along z = 0.0 m, must be > 0", LabelVolume.of, values, (1.0, 1.0, 0.0))
+    refusal(
+        "labels = int64 array of shape (10, 20, 40, 1), must be",
+        LabelVolume.of,
+        values.T[..., None],
+        1.0,
+    )
     alone = LabelVolume.of(np.arange(8000).reshape(20, 20, 20)[::-1], (1.0, 1.0, 1.0))
     assert (alone.voxels == 1).all() and alone.labels[0, 0, 0] == 7600
 

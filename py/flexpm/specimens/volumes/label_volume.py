@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ...arrays import AnyArray, BoolArray, IntArray
 from ...errors import InputError
 from ...require import Bounds, quoted, require_list, require_whole
+from ..checks import require_length
 from ..labels.whole import KINDS, whole_numbers
 
 #: AnyArray along x, y and z.
@@ -59,7 +60,7 @@ class LabelVolume:
     def of(
         cls,
         values: AnyArray,
-        spacing: Triple,
+        spacing: float | Sequence[float],
         origin: Triple = (0.0, 0.0, 0.0),
         *,
         source: str = "array",
@@ -72,12 +73,13 @@ class LabelVolume:
         Args:
             values: Whole numbers, (z, y, x), of 8 to 64 bits in any byte order. Floats must be
                 whole numbers.
-            spacing: Size of a voxel along x, y, z [m].
+            spacing: Size of a voxel, or sizes along x, y, z [m].
             origin: Corner of the first voxel [m].
             source: Name of the labels, for messages and reports.
 
         Raises:
-            InputError: for an array of another shape or kind, or too many different labels.
+            InputError: for an array of another shape or kind, too many different labels, or a size
+                that is not a length.
         """
         what = f"volume {quoted(source)}"
         if values.ndim != 3 or values.dtype.kind not in KINDS:
@@ -86,8 +88,9 @@ class LabelVolume:
                 "numbers along z, y and x; correct it"
             )
         require_counts(what, counts_of(values))
+        sizes = voxel_sizes(spacing)
         labels, ids = _indexed(f"{what}: labels", values)
-        return cls(labels, ids, spacing, origin, source=source)
+        return cls(labels, ids, sizes, origin, source=source)
 
     @property
     def counts(self) -> Counts:
@@ -205,6 +208,24 @@ class Window:
         corner = [o + n * d for o, n, d in zip(origin, self.first, spacing, strict=True)]
         x, y, z = (self.step * d for d in spacing)
         return (x, y, z), (corner[0], corner[1], corner[2])
+
+
+def voxel_sizes(voxel: object) -> Triple:
+    """Return the sizes of a voxel along x, y, z [m], from one number or three.
+
+    Raises:
+        InputError: for other values than lengths.
+    """
+    given = require_list("voxel", voxel) if isinstance(voxel, list | tuple) else [voxel] * 3
+    if len(given) != 3:
+        raise InputError(
+            f"voxel = {quoted(voxel)}, must be one number or three; give sizes along x, y, z in m"
+        )
+    x, y, z = (
+        require_length("volume", f"voxel along {axis}", size)
+        for axis, size in zip(AXES, given, strict=True)
+    )
+    return x, y, z
 
 
 def counts_of(values: AnyArray) -> Counts:

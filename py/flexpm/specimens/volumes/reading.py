@@ -12,11 +12,11 @@ import numpy as np
 
 from ...arrays import IntArray
 from ...errors import InputError
-from ...require import Bounds, quoted, require_list, require_number, require_one_of
+from ...require import Bounds, quoted, require_number, require_one_of
 from ..checks import require_length
 from ..labels.majority import majority
 from . import dream3d, npy, raw, tesr, tiff, vti, vtk
-from .label_volume import AXES, Crop, LabelVolume, Triple, Window, require_counts
+from .label_volume import AXES, Crop, LabelVolume, Triple, Window, require_counts, voxel_sizes
 from .volume_file import (
     Content,
     VolumeFile,
@@ -149,7 +149,7 @@ def _scale(
             raise refused(
                 path, f"unit = {unit}, has no use: voxel is in metres", "give voxel or unit"
             )
-        given = _sizes(voxel)
+        given = voxel_sizes(voxel)
         steps = file.spacing or given
         return given, _corner(path, [h / d for d, h in zip(steps, given, strict=True)], file.origin)
     if file.spacing is None:
@@ -177,20 +177,6 @@ def _corner(path: Path, metres: Sequence[float], origin: Triple) -> Triple:
     x, y, z = (
         require_number(f"{name_of(path)}: origin along {axis}", unit * length, bounds, "m")
         for axis, unit, length in zip(AXES, metres, origin, strict=True)
-    )
-    return x, y, z
-
-
-def _sizes(voxel: object) -> Triple:
-    """Return the sizes of a voxel along x, y, z [m]."""
-    given = require_list("voxel", voxel) if isinstance(voxel, list | tuple) else [voxel] * 3
-    if len(given) != 3:
-        raise InputError(
-            f"voxel = {quoted(voxel)}, must be one number or three; give sizes along x, y, z in m"
-        )
-    x, y, z = (
-        require_length("volume", f"voxel along {axis}", size)
-        for axis, size in zip(AXES, given, strict=True)
     )
     return x, y, z
 
