@@ -126,7 +126,7 @@ def by_majority(
             f"{_MOST_PHASES}; give an image or volume of phases"
         )
     names = list(dict.fromkeys(named[one] for one in kinds.tolist()))
-    mineral_of = np.array([names.index(named[one]) for one in kinds.tolist()])
+    mineral_of = np.array([names.index(named[one]) for one in kinds.tolist()], dtype=np.uint8)
     most = majority(grains, mineral_of[numbers], len(ids), len(names))
     order = [name for name in dict.fromkeys(named.values()) if name in names]
     chosen = {label: names[kind] for label, kind in zip(ids.tolist(), most.tolist(), strict=True)}
