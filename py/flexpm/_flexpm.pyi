@@ -161,6 +161,16 @@ class Polyhedra:
     @property
     def short_edges(self) -> int: ...
 
+class WeightedCells:
+    @property
+    def vertices(self) -> FloatArray: ...
+    @property
+    def faces(self) -> tuple[IntArray, IntArray, IntArray]: ...
+    @property
+    def volumes(self) -> FloatArray: ...
+    @property
+    def centroids(self) -> FloatArray: ...
+
 class FanMeshes:
     @property
     def node_offsets(self) -> IntArray: ...
@@ -283,7 +293,25 @@ def own_polyhedra(
     spheres: FloatArray,
     solid: Solid,
     short_edge: float,
+    pores: IntArray,
 ) -> Polyhedra: ...
+def weighted_cells(points: FloatArray, weights: FloatArray, solid: Solid) -> WeightedCells: ...
+def weights_of_volumes(
+    points: FloatArray, weights: FloatArray, solid: Solid, volumes: FloatArray, tolerance: float
+) -> FloatArray: ...
+def cells_of_voxels(
+    points: FloatArray,
+    weights: FloatArray,
+    cells: WeightedCells,
+    counts: tuple[int, int, int],
+    box: FloatArray,
+) -> IntArray: ...
+def fit_labels(
+    samples: tuple[FloatArray, IntArray, FloatArray],
+    rivals: tuple[IntArray, IntArray],
+    start: tuple[FloatArray, FloatArray, FloatArray],
+    options: tuple[float, float],
+) -> tuple[FloatArray, FloatArray]: ...
 def fan_meshes(cells: Polyhedra) -> FanMeshes: ...
 def solid_constants(
     cells: Polyhedra,

@@ -81,6 +81,7 @@ BOOST_PYTHON_MODULE(_flexpm)
 	flexpm_bindings::register_subdivision_bindings();
 	flexpm_bindings::register_tiling_bindings();
 	flexpm_bindings::register_space_bindings();
+	flexpm_bindings::register_label_bindings();
 	// called by the package once the layout check has passed, not at load
 	py::def("register_classes", registerClasses, "Register the plugin's classes with YADE, once; returns their names.");
 }

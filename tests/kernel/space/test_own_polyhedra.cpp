@@ -99,3 +99,41 @@ TEST_CASE("cells that are none are refused by cell and face", "[space]")
         if (good.vertices[v].x > 0.0 && good.vertices[v].y > 0.0) bad.vertices[v].z *= 1.1;
     refused(bad, "cell 1, face 1: corners off its plane by");
 }
+
+TEST_CASE("pores are taken out, and their walls are free", "[space]")
+{
+    const auto spheres = packed_spheres(cube(), 60, 6);
+    const Polyhedra all = polyhedra(spheres, cube(), { 0.0, false });
+    OwnCells own = own_of(all);
+    own.pores = { 7, 20 };
+    const Polyhedra made = own_polyhedra(own, cube(), 3e-4);
+    REQUIRE(made.cells() == 58);
+    REQUIRE(made.sphere_of_cell.back() == 57);
+    REQUIRE(norm(made.centres[7] - all.centres[8]) == 0.0);
+    // flanks close each cell: its area vectors add up to 0
+    std::vector<Vector> sums(made.cells());
+    const auto walls = static_cast<int>(cube().walls.size());
+    double flanks = 0.0;
+    for (std::size_t f = 0; f < made.faces.size(); ++f) {
+        const PolyhedronFace& face = made.faces[f];
+        const Vector area = area_of(polygon(made, static_cast<int>(f)));
+        sums[face.cell_a] = sums[face.cell_a] + area;
+        if (face.cell_b >= 0) sums[face.cell_b] = sums[face.cell_b] - area;
+        REQUIRE((face.cell_b >= 0) == (face.wall < 0));
+        if (face.wall == walls) flanks += norm(area);
+    }
+    for (const Vector& sum : sums)
+        REQUIRE(norm(sum) < 1e-15);
+    double expected = 0.0;
+    for (std::size_t f = 0; f < all.faces.size(); ++f) {
+        const PolyhedronFace& face = all.faces[f];
+        const auto is_pore = [](int cell) { return cell == 7 || cell == 20; };
+        if (face.cell_b >= 0 && is_pore(face.cell_a) != is_pore(face.cell_b))
+            expected += norm(area_of(polygon(all, static_cast<int>(f))));
+    }
+    REQUIRE(flanks == Approx(expected).epsilon(0.05));  // but for short edges
+    for (const std::vector<int>& pores : { std::vector<int> { 60 }, { 5, 5 }, { 9, 3 } }) {
+        own.pores = pores;
+        REQUIRE_THROWS_WITH(own_polyhedra(own, cube(), 0.0), Catch::Contains("own_polyhedra: pore"));
+    }
+}

@@ -172,6 +172,28 @@ std::vector<double> cell_volumes(const CellComplex& complex)
     return volumes;
 }
 
+std::vector<Vector> cell_centroids(const CellComplex& complex, const std::vector<Vector>& origins,
+    const std::vector<double>& volumes)
+{
+    std::vector<Vector> moments(complex.cells);
+    const auto add = [&](int cell, const CellFace& face, double sign) {
+        const Vector origin = origins[cell];
+        const Vector a = complex.vertices[face.corners[0]] - origin;
+        for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {
+            const Vector b = complex.vertices[face.corners[k]] - origin;
+            const Vector c = complex.vertices[face.corners[k + 1]] - origin;
+            moments[cell] = moments[cell] + (sign / 24.0 * triple(a, b, c)) * (a + b + c);
+        }
+    };
+    for (const CellFace& face : complex.faces) {
+        add(face.first, face, 1.0);
+        if (face.second >= 0) add(face.second, face, -1.0);
+    }
+    for (int c = 0; c < complex.cells; ++c)
+        moments[c] = origins[c] + (volumes[c] > 0.0 ? 1.0 / volumes[c] : 0.0) * moments[c];
+    return moments;
+}
+
 int count_contacts(const CellComplex& complex)
 {
     return static_cast<int>(std::count_if(complex.faces.begin(), complex.faces.end(),

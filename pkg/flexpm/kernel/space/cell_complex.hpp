@@ -38,6 +38,13 @@ Vector area_vector(const CellComplex& complex, const std::vector<int>& corners);
 /// Volume of each cell, exact for bent faces in the sense that shared faces cancel.
 std::vector<double> cell_volumes(const CellComplex& complex);
 
+/// Centroid of each cell; for a cell without volume its origin.
+///
+/// @param origins  per cell, a point near it, so that no digits are lost
+/// @param volumes  see cell_volumes()
+std::vector<Vector> cell_centroids(const CellComplex& complex, const std::vector<Vector>& origins,
+    const std::vector<double>& volumes);
+
 /// Number of faces between two cells.
 int count_contacts(const CellComplex& complex);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -249,6 +250,18 @@ void require_centres(const CellComplex& complex, const std::vector<Sphere>& sphe
         }
 }
 
+void require_pores(const std::vector<int>& pores, int cells)
+{
+    for (std::size_t k = 0; k < pores.size(); ++k) {
+        const bool is_cell = pores[k] >= 0 && pores[k] < cells;
+        if (is_cell && (k == 0 || pores[k - 1] < pores[k])) continue;
+        refuse("own_polyhedra: pore", std::to_string(pores[k]),
+            "must be one of " + std::to_string(cells) + " cells, in order, each once; correct it");
+    }
+    if (static_cast<int>(pores.size()) == cells)
+        refuse("own_polyhedra: pores", std::to_string(cells), "must leave a cell; take fewer");
+}
+
 void require_sizes(const std::vector<Sphere>& spheres, const Solid& solid)
 {
     if (spheres.empty()) refuse("own_polyhedra: cells", 0.0, "", "must be >= 1; give a cell");
@@ -269,14 +282,19 @@ Polyhedra own_polyhedra(const OwnCells& own, const Solid& solid, double short_ed
 {
     require_short_edge(short_edge);
     require_sizes(own.spheres, solid);
+    require_pores(own.pores, static_cast<int>(own.spheres.size()));
     CellComplex complex = Checker(own, solid).run();
     merge_close_vertices(complex, zero_edge * mean_diameter(own.spheres));
     require_centres(complex, own.spheres);
     std::vector<Vector> centres;
     for (const Sphere& sphere : own.spheres)
         centres.push_back(sphere.centre);
+    complex.flanks = static_cast<int>(solid.walls.size());
     Polyhedra p;
+    p.hidden_spheres = own.pores;
     finish_cells(p, complex, centres, short_edge);
+    std::iota(p.sphere_of_cell.begin(), p.sphere_of_cell.end(), 0);
+    p.hidden_spheres.clear();
     return p;
 }
 

@@ -48,29 +48,6 @@ void require_volumes(const std::vector<Sphere>& spheres, const std::vector<int>&
     }
 }
 
-/// Centroid of each cell.
-std::vector<Vector> centroids(const CellComplex& complex, const std::vector<Sphere>& spheres,
-    const std::vector<double>& volumes)
-{
-    std::vector<Vector> moments(complex.cells);
-    const auto add = [&](int cell, const CellFace& face, double sign) {
-        const Vector origin = spheres[cell].centre;
-        const Vector a = complex.vertices[face.corners[0]] - origin;
-        for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {
-            const Vector b = complex.vertices[face.corners[k]] - origin;
-            const Vector c = complex.vertices[face.corners[k + 1]] - origin;
-            moments[cell] = moments[cell] + (sign / 24.0 * triple(a, b, c)) * (a + b + c);
-        }
-    };
-    for (const CellFace& face : complex.faces) {
-        add(face.first, face, 1.0);
-        if (face.second >= 0) add(face.second, face, -1.0);
-    }
-    for (int c = 0; c < complex.cells; ++c)
-        moments[c] = spheres[c].centre + (volumes[c] > 0.0 ? 1.0 / volumes[c] : 0.0) * moments[c];
-    return moments;
-}
-
 /// Smallest distance of each sphere's centre from the planes of its cell's faces.
 std::vector<double> depths(const CellComplex& complex, const std::vector<Sphere>& spheres)
 {
@@ -124,6 +101,30 @@ void number_cells(Polyhedra& p, CellComplex& complex, const std::vector<Vector>&
     }
 }
 
+/// Take cells out: faces that they share with others become flanks of these.
+/// @param gone  cells, in order
+void take_out(CellComplex& complex, const std::vector<int>& gone)
+{
+    const auto is_gone = [&](int cell) {
+        return cell >= 0 && std::binary_search(gone.begin(), gone.end(), cell);
+    };
+    std::vector<CellFace> kept;
+    for (CellFace& face : complex.faces) {
+        const bool first = is_gone(face.first), second = is_gone(face.second);
+        if (first && (second || face.second < 0)) continue;
+        if (first) {
+            std::swap(face.first, face.second);
+            std::reverse(face.corners.begin(), face.corners.end());
+        }
+        if (first || second) {
+            face.second = -1;
+            face.wall = complex.flanks;
+        }
+        kept.push_back(std::move(face));
+    }
+    complex.faces = std::move(kept);
+}
+
 /// Volumes between the triangles of the faces, which a collapse has bent.
 void add_volumes(Polyhedra& p)
 {
@@ -150,8 +151,16 @@ void require_short_edge(double short_edge)
 void finish_cells(
     Polyhedra& p, CellComplex& complex, const std::vector<Vector>& centres, double short_edge)
 {
-    p.uncollapsed_contacts = count_contacts(complex);
+    const auto is_hidden = [&](int cell) {
+        return std::binary_search(p.hidden_spheres.begin(), p.hidden_spheres.end(), cell);
+    };
+    for (const CellFace& face : complex.faces) {
+        const bool is_contact
+            = face.second >= 0 && !is_hidden(face.first) && !is_hidden(face.second);
+        p.uncollapsed_contacts += is_contact ? 1 : 0;
+    }
     p.short_edges = collapse_short_edges(complex, centres, short_edge);
+    take_out(complex, p.hidden_spheres);
     p.contacts = count_contacts(complex);
     number_cells(p, complex, centres);
     add_volumes(p);
@@ -206,7 +215,10 @@ Polyhedra polyhedra(
     const double mean_volume = solid.volume / static_cast<double>(given.size());
     require_volumes(spheres, p.hidden_spheres, volumes, zero_volume * mean_volume);
 
-    std::vector<Vector> centres = centroids(complex, spheres, volumes);
+    std::vector<Vector> origins;
+    for (const Sphere& sphere : spheres)
+        origins.push_back(sphere.centre);
+    std::vector<Vector> centres = cell_centroids(complex, origins, volumes);
     const auto depth = depths(complex, spheres);
     for (std::size_t s = 0; s < spheres.size(); ++s) {
         if (depth[s] < well_inside * std::cbrt(volumes[s])) moved[s] = true;

@@ -69,10 +69,10 @@ constexpr double zero_edge = 1e-9;
 void require_short_edge(double short_edge);
 
 /// The rest of the way of any cells whose faces are known: short edges collapsed, cells numbered
-/// without the hidden ones, vertices in the order in which faces use them, volumes between the
+/// without the hidden ones, whose faces become flanks of their neighbours, vertices in the order in which faces use them, volumes between the
 /// triangles of the faces, which a collapse has bent.
 ///
-/// @param p           knows its hidden spheres
+/// @param p           knows its hidden spheres, in order
 /// @param centres     per cell, hidden ones too, the common corner of its tetrahedra
 /// @param short_edge  edges below this length are collapsed [m]
 void finish_cells(

@@ -126,13 +126,19 @@ SurfacedSolid make_grains(
     return g;
 }
 
+/// Whether a facet is a wall of a pore, which is free.
+bool is_flank(const Facet& f, const Solid& solid)
+{
+    return f.wall >= static_cast<int>(solid.walls.size());
+}
+
 /// Nodes that lie on a side.
 std::vector<std::uint8_t> nodes_on(const SurfacedSolid& g, const Solid& solid, SolidSide side)
 {
     std::vector<std::uint8_t> on(g.solid.places.size(), 0);
     bool any = false;
     for (const Facet& f : g.facets) {
-        if (solid.walls[f.wall].side != side) continue;
+        if (is_flank(f, solid) || solid.walls[f.wall].side != side) continue;
         for (int n : f.nodes)
             on[n] = 1;
         any = true;
@@ -149,15 +155,19 @@ void require_cells_of(const Solid& solid, const Polyhedra& cells, const Surfaced
 {
     constexpr double alike = 1e-6;
     const int walls = static_cast<int>(solid.walls.size());
+    bool has_pores = false;
     for (const Facet& f : g.facets) {
-        if (f.wall < 0 || f.wall >= walls) {
+        has_pores = has_pores || f.wall == walls;
+        if (f.wall < 0 || f.wall > walls) {
             refuse("solid_constants: wall of a facet", static_cast<double>(f.wall), "",
-                "must be below " + std::to_string(walls) + "; give the solid of the cells");
+                "must be below " + std::to_string(walls) + ", or that for the walls of pores; give "
+                "the solid of the cells");
         }
     }
     double volume = 0.0;
     for (double v : cells.volumes)
         volume += v;
+    if (has_pores && volume < solid.volume) return;
     if (!(std::fabs(volume - solid.volume) <= alike * solid.volume)) {
         refuse("solid_constants: volume of the solid", solid.volume, "m^3",
             "must be that of the cells, " + number(volume) + "; give the solid of the cells");
@@ -194,15 +204,25 @@ SolidExtension solid_extension(const Polyhedra& cells, const Solid& solid,
     double reaction = 0.0, widening = 0.0;
     for (std::size_t n = 0; n < g.solid.places.size(); ++n)
         if (top[n]) reaction += forces[3 * n + 2];
-    // Gauss: the sum of both lateral strains times the volume
+    // Gauss: the sum of both lateral strains times the volume. Where a pore is open to the side,
+    // the strain is that of the rest of the side.
+    const Vector middle = 0.5 * (solid.low + solid.high);
+    double covered = 0.0;
+    bool has_pores = false;
     for (const Facet& f : g.facets) {
+        if (is_flank(f, solid)) {
+            has_pores = true;
+            continue;
+        }
         const Wall& wall = solid.walls[f.wall];
         if (is_end(wall.side)) continue;
+        covered += f.area * (wall.offset - dot(wall.normal, middle));
         for (int n : f.nodes)
             widening += f.area / 3.0 * dot(wall.normal, triple_at(u.data(), n));
     }
+    const double volume = has_pores ? 0.5 * covered : solid.volume;
     SolidExtension result {
-        { reaction / section, -0.5 * widening / solid.volume, found.iterations, found.residual }, {}
+        { reaction / section, -0.5 * widening / volume, found.iterations, found.residual }, {}
     };
     for (int n = 0; n < static_cast<int>(g.solid.places.size()); ++n)
         result.field.push_back(triple_at(u.data(), n));

@@ -73,7 +73,7 @@ namespace {
 	}
 
 	/// Given cells: vertices, rows first, second of faces, their offsets among the corners, and spheres.
-	std::shared_ptr<Polyhedra> ownPolyhedra(py::object vertices, py::tuple faces, py::object rows, const Solid& solid, double shortEdge)
+	std::shared_ptr<Polyhedra> ownPolyhedra(py::object vertices, py::tuple faces, py::object rows, const Solid& solid, double shortEdge, py::object pores)
 	{
 		const InputArray<double> places(vertices, 2, "vertices");
 		const InputArray<int>    pairs(faces[0], 2, "pairs"), offsets(faces[1], 1, "offsets"), corners(faces[2], 1, "corners");
@@ -81,6 +81,8 @@ namespace {
 			throw std::invalid_argument("vertices, pairs, offsets = of other sizes, must be rows of 3, rows of 2, and one offset more than pairs");
 		flexpm::OwnCells own;
 		own.spheres = spheres(rows);
+		const InputArray<int> taken(pores, 1, "pores");
+		own.pores.assign(taken.data(), taken.data() + taken.size(0));
 		for (std::size_t i = 0; i < places.size(0); ++i)
 			own.vertices.push_back({ places.data()[3 * i], places.data()[3 * i + 1], places.data()[3 * i + 2] });
 		for (std::size_t f = 0; f < pairs.size(0); ++f) {
@@ -201,9 +203,9 @@ void register_space_bindings()
 	        "flanks of notch i have the wall index walls + i.");
 	py::def("own_polyhedra",
 	        ownPolyhedra,
-	        (py::arg("vertices"), py::arg("faces"), py::arg("spheres"), py::arg("solid"), py::arg("short_edge")),
+	        (py::arg("vertices"), py::arg("faces"), py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("pores")),
 	        "Return user-supplied convex cells. faces: pairs of cells, offsets of the faces in the list of corners, and this list; spheres: rows x, y, z, "
-	        "radius of the cells.");
+	        "radius of the cells; pores: cells that are taken out after short edges are collapsed, in order.");
 	py::def("fan_meshes", fanMeshes, py::arg("cells"), "Tetrahedra of all cells.");
 	py::def("solid_constants",
 	        solidConstants,

@@ -16,6 +16,9 @@ void register_instruction_set_bindings();
 /// StrainGauge; scales, stresses and end of a test.
 void register_laboratory_bindings();
 
+/// WeightedCells; weighted_cells, weights_of_volumes, cells_of_voxels, fit_labels.
+void register_label_bindings();
+
 /// Solid, Polyhedra, FanMeshes; sphere_count, insert_spheres, polyhedra, fan_meshes, face_point_counts.
 void register_space_bindings();
 

@@ -98,7 +98,7 @@ class OwnCells:
         """
         short = spec.short_edge * 2.0 * float(np.mean(spheres[:, 3]))
         faces = (self.pairs, self.offsets, self.corners)
-        return call(own_polyhedra, self.vertices, faces, spheres, self.outline(spec), short)
+        return call(own_polyhedra, self.vertices, faces, spheres, self.outline(spec), short, self.pores)
 
     def outline(self, spec: SolidSpec) -> Solid:
         """Return the outline of the cells; its lateral surface has the facets of the cells."""
