@@ -10,12 +10,16 @@ from dataclasses import dataclass
 
 import yade
 
+from ..dimensions import is_solid
 from ..materials import load
 from ..models.grains import build
 from ..rigs.fitting import rig
 from ..runs.loading_rate import Loading
+from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.specimen import Specimen
 
+#: Ratio of the compliances of contacts and grains above which a message is printed [-].
+SOFT = 1.0
 #: Steps that are timed, after some that are not.
 _STEPS, _FIRST = 40, 5
 #: Fewest and most steps of compressions over their likely number: seven images took 0.7 to 1.8
@@ -58,12 +62,12 @@ def forecast(specimen: Specimen) -> Forecast | None:
         yade.O.reset()
 
 
-def softness(specimen: Specimen) -> float:
+def softness(specimen: Specimen | SolidSpecimen) -> float:
     """How much more way contacts give than grains, with the default material [-].
 
     Its stiffness is for grains of millimetres, where this is 0.05; among grains of micrometres
     contacts alone would give way.
     """
-    chosen = load().elastic["flexible"]
+    chosen = load(solid=is_solid(specimen.kind)).elastic["flexible"]
     assert chosen.young is not None
     return chosen.young / (chosen.normal_stiffness * specimen.mean_diameter)

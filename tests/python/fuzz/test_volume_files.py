@@ -14,7 +14,7 @@ from hypothesis import given
 from volume_files import drawn, write
 
 from flexpm.errors import InputError
-from flexpm.specimens.volumes.reading import read
+from flexpm.specimens.label_volumes.reading import read
 
 LABELS = drawn((4, 3, 3), 5)
 #: Files whose heads and bodies are changed, and whether as texts.

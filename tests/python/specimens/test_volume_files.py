@@ -26,10 +26,10 @@ from volume_files import (
     write,
 )
 
+from flexpm.specimens.label_volumes import label_volume, volume_file
+from flexpm.specimens.label_volumes.label_volume import LabelVolume
+from flexpm.specimens.label_volumes.reading import read
 from flexpm.specimens.labels import picture
-from flexpm.specimens.volumes import label_volume, volume_file
-from flexpm.specimens.volumes.label_volume import LabelVolume
-from flexpm.specimens.volumes.reading import read
 
 LABELS = drawn()
 SIZES, CORNER = (0.5, 0.25, 2.0), (1.0, -2.0, 0.5)

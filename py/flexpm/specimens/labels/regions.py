@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Regions of an image of labels, connected by edges of pixels. Lengths in pixels.
+"""Regions of labels, connected by edges of pixels or sides of voxels. Lengths in pixels.
 
-Rows are counted upwards: row 0 is the lowest row. A hole has the index -1.
+Rows of an image are counted upwards: row 0 is the lowest row. A hole has the index -1.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from ...arrays import BoolArray, IntArray
 from ...errors import InputError
 
 HOLE = -1
+Values = TypeVar("Values", IntArray, BoolArray)
 _WHERE = "Specimen.from_labels"
 #: Holes below this share of a mean grain are filled [-]; smaller ones count as gaps of cells.
 _LEAST_HOLE = 0.03
@@ -61,24 +63,46 @@ def connected(image: IntArray, cuts: Cuts | None = None) -> IntArray:
     """Return the index of the connected region of equal values of each pixel, in reading order.
 
     Args:
-        image: Values of the pixels.
-        cuts: Edges across which pixels are not connected although they are equal.
+        image: Values of the pixels of an image, or of the voxels of a volume.
+        cuts: Edges of an image across which pixels are not connected although they are equal.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    index = np.arange(image.size).reshape(image.shape)
-    beside = image[:, :-1] == image[:, 1:]
-    above = image[:-1] == image[1:]
+    index = np.arange(image.size, dtype=np.int32).reshape(image.shape)
+    sides = [
+        (one == other, at)
+        for (one, other), at in zip(sides_along_axes(image), sides_along_axes(index), strict=True)
+    ]
     if cuts is not None:
-        beside &= ~cuts.beside
-        above &= ~cuts.above
-    first = np.concatenate((index[:, :-1][beside], index[:-1][above]))
-    second = np.concatenate((index[:, 1:][beside], index[1:][above]))
+        for (met, _), cut in zip(sides, (cuts.above, cuts.beside), strict=True):
+            met &= ~cut
+    first, second = (np.concatenate([at[end][met] for met, at in sides]) for end in range(2))
     ones = np.ones(len(first), dtype=np.int8)
     graph = coo_array((ones, (first, second)), shape=(image.size, image.size))
     found: IntArray = connected_components(graph, directed=False)[1].reshape(image.shape)
     return found
+
+
+def sides_along_axes(image: Values) -> list[tuple[Values, Values]]:
+    """Return views of the values on both sides of each edge of pixels, axis by axis."""
+    found: list[tuple[Values, Values]] = []
+    for axis in range(image.ndim):
+        rolled = np.moveaxis(image, axis, 0)
+        found.append((np.moveaxis(rolled[:-1], 0, axis), np.moveaxis(rolled[1:], 0, axis)))
+    return found
+
+
+def shared_sides(regions: IntArray) -> tuple[IntArray, IntArray]:
+    """Return the pairs of regions that share sides, lower one first, and how many sides."""
+    count = int(regions.max()) + 1
+    keys = []
+    for one, other in sides_along_axes(regions):
+        met = one != other
+        low, high = np.minimum(one[met], other[met]), np.maximum(one[met], other[met])
+        keys.append(low.astype(np.int64) * count + high)
+    found, numbers = np.unique(np.concatenate(keys), return_counts=True)
+    return np.column_stack(np.divmod(found, count)), numbers
 
 
 def find(
@@ -108,7 +132,7 @@ def find(
     counts = {"regions": int(np.count_nonzero(~is_hole))}
     if not counts["regions"]:
         raise InputError("Specimen.from_labels: all labels are holes; choose another phase as hole")
-    small = _Merging(regions, is_hole, kinds)
+    small = Merging(regions, is_hole, kinds)
     counts["small_regions"] = small.merge(smallest, holes=False)
     rock = int(np.count_nonzero(~holes))
     least = max(smallest, int(_LEAST_HOLE * rock / max(small.grains, 1)) + 1)
@@ -125,26 +149,16 @@ def find(
     return Regions(image, values[kept], counts)
 
 
-class _Merging:
-    """Merging of regions with their neighbours, smallest regions first."""
+class Merging:
+    """Merging of regions of pixels or voxels with their neighbours, smallest regions first."""
 
     def __init__(self, regions: IntArray, is_hole: BoolArray, kinds: IntArray) -> None:
         self.target = np.arange(len(is_hole))  #: region that each one has gone to, once settled
         self._is_hole, self._kinds = is_hole.tolist(), kinds.tolist()
         self._sizes = np.bincount(regions.ravel()).tolist()
         self._lines: list[dict[int, int]] = [{} for _ in self._sizes]
-        pairs = np.concatenate(
-            [
-                np.stack((one[one != other], other[one != other]))
-                for one, other in (
-                    (regions[:, :-1], regions[:, 1:]),
-                    (regions[:-1], regions[1:]),
-                )
-            ],
-            axis=1,
-        )
-        found, lengths = np.unique(np.sort(pairs, axis=0), axis=1, return_counts=True)
-        for a, b, length in zip(*found.tolist(), lengths.tolist(), strict=True):
+        found, lengths = shared_sides(regions)
+        for (a, b), length in zip(found.tolist(), lengths.tolist(), strict=True):
             self._lines[a][b] = self._lines[b][a] = length
 
     @property

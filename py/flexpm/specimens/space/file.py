@@ -38,7 +38,11 @@ _KEYS: dict[str, Rule] = {
     "minerals": or_none(list_of(is_count, 1)),
     "vertices": list_of(row_of(3), 4),
     "faces": list_of(list_of(_is_index, 5), 4),
+    "pore_spheres": list_of(row_of(4), 1),
+    "mineral_names": list_of(is_text, 1),
 }
+#: Keys that a file need not have.
+_LATER = ("minerals", "vertices", "faces", "pore_spheres", "mineral_names")
 #: What each field of the spec holds; sizes and numbers of a packing it checks itself.
 _SPEC: dict[str, Rule] = {
     "kind": is_text,
@@ -90,7 +94,7 @@ def read(path: Path) -> Table:
         raise InputError(
             f"{name}, was changed after it was saved; for other spheres use Specimen.from_spheres"
         )
-    require_rules(content, _KEYS, ("minerals", "vertices", "faces"))
+    require_rules(content, _KEYS, _LATER)
     known = [field.name for field in dataclasses.fields(SolidSpec)]
     return content | {"spec": SolidSpec(**spec_values(content["spec"], known, _SPEC))}
 

@@ -3,17 +3,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy.typing as npt
 
+from ...arrays import AnyArray
 from ...dimensions import refused
 from ...files import Table
+from ...progress import Progress
 from ...require import quoted
 from ..plane import Packing, packing_of
 from .spec import SHORT_EDGE, SolidSpec
 from .specimen import SolidSpecimen
+
+if TYPE_CHECKING:
+    from ..label_volumes.label_volume import LabelVolume
 
 
 class SolidShapes:
@@ -161,6 +167,105 @@ class SolidShapes:
         from .tess import specimen_of
 
         return specimen_of(Path(path), scale, short_edge)
+
+    @staticmethod
+    def from_label_volume(
+        source: LabelVolume | AnyArray | Path | str,
+        *,
+        voxel: float | tuple[float, float, float] | None = None,
+        minerals: Mapping[int, int | None] | None = None,
+        least_voxels: int = 8,
+        watershed: bool = False,
+        shape: str = "box",
+        diameter: float | None = None,
+        volumes: str = "fitted",
+        short_edge: float = SHORT_EDGE,
+        progress: Progress | None = None,
+        **reading: Any,
+    ) -> SolidSpecimen:
+        """Make a 3D specimen of the labels of voxels: one convex cell for each grain.
+
+        The voxels of a label that are connected by sides are a grain. The cells are those of a
+        power diagram that agrees with as many voxels as possible (doc/volumes).
+
+        Args:
+            source: A file (doc/volumes), a ``LabelVolume``, or an array of whole numbers (z, y, x).
+            voxel: Size of a voxel, or sizes along x, y and z [m]; for an array required.
+            minerals: Index of the mineral of each label, None for a pore. If it has pores only, the
+                other labels are rock without minerals. None: the phases of the file are minerals,
+                and label 0 of a ``.tesr`` file, the void, is a pore.
+            least_voxels: Smallest number of voxels of a grain or pore; smaller ones are merged with
+                a neighbour.
+            watershed: Divide the regions of a label where they are narrow, for labels of phases.
+            shape: ``box``: the whole volume. ``cylinder`` about z or ``solid-disc`` about y, cut
+                from the middle of the volume.
+            diameter: Diameter of a cylinder or disc [m].
+            volumes: ``exact``: cells have the volumes of their grains within 1e-7.
+            short_edge: Ratio to the mean diameter below which edges of cells are collapsed [-]; 0:
+                none.
+            progress: Receives the stages of the fit.
+            reading: ``unit``, ``counts``, ``dtype``, ``array``, ``crop`` and ``coarsen`` of
+                ``reading.read``, for files.
+
+        Returns:
+            The specimen, grains in the order of their labels. ``fit`` compares it with the volume.
+
+        Raises:
+            InputError: for a file or a value that is refused, a label without a mineral, or less
+                than two grains.
+
+        Example:
+            >>> labels = np.repeat([[[1, 1, 2, 2]]], 4, axis=1).repeat(4, axis=0)
+            >>> two = flexpm.Specimen.from_label_volume(labels, voxel=1e-3)
+            >>> two.statistics()["grains"], two.fit.totals["agreement"]
+            (2, 1.0)
+        """
+        from ..volumes.specimen_of_volume import VolumeOptions, kinds_of, specimen_of, volume_of
+
+        options = VolumeOptions(least_voxels, watershed, shape, diameter, volumes, short_edge)
+        volume = volume_of(source, voxel, reading)
+        return specimen_of(volume, kinds_of(volume, minerals), options, progress)
+
+    @staticmethod
+    def from_grain_table(
+        path: Path | str,
+        *,
+        width: float,
+        depth: float,
+        height: float,
+        unit: str = "m",
+        short_edge: float = SHORT_EDGE,
+        progress: Progress | None = None,
+    ) -> SolidSpecimen:
+        """Make a box of grains with given volumes and centroids: a Laguerre tessellation.
+
+        Volumes are exact within 1e-7, before short edges are collapsed. Centroids are as near as
+        a Laguerre tessellation with these volumes allows after some steps.
+
+        Args:
+            path: A CSV file with the columns id, x, y, z, volume and, optionally, phase. Centroids
+                are in the box, which has a corner at the origin.
+            width: Size of the box along x [m].
+            depth: Size along y [m].
+            height: Size along z [m].
+            unit: Unit of the lengths in the file: ``m``, ``mm`` or ``um``.
+            short_edge: Ratio to the mean diameter below which edges of cells are collapsed [-]; 0:
+                none.
+            progress: Receives the steps.
+
+        Returns:
+            The specimen, grains in the order of the file. Phases are minerals, in the order in
+            which the file names them.
+
+        Raises:
+            InputError: for a file or value that is refused, grains outside the box, or volumes that
+                differ from the volume of the box by more than 2 %; smaller differences are scaled
+                away.
+        """
+        from ..volumes.grain_table import read, specimen_of
+
+        sizes = {"width": width, "depth": depth, "height": height}
+        return specimen_of(read(Path(path), unit), sizes, short_edge, progress)
 
     @staticmethod
     def load_solid(path: Path | str) -> SolidSpecimen:

@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..._flexpm import Polyhedra, Solid, own_polyhedra
+from ..._flexpm import Polyhedra, Solid, WeightedCells, own_polyhedra
 from ...arrays import FloatArray, IntArray
 from ...files import Table
 from ..files.rules import refuse
@@ -31,12 +31,15 @@ class OwnCells:
         pairs: Rows of the cells of each face, the lower one first, -1: outside.
         offsets: Face i has the corners from ``offsets[i]`` to before ``offsets[i + 1]``.
         corners: Vertices, face after face, counter-clockwise as seen from outside the first cell.
+        pore_spheres: Rows x, y, z, radius [m] of the last cells, which are pores: as `spheres`.
+            Pores are taken out, and their walls are free.
     """
 
     vertices: FloatArray
     pairs: IntArray
     offsets: IntArray
     corners: IntArray
+    pore_spheres: FloatArray = field(default_factory=lambda: np.zeros((0, 4)))
 
     @classmethod
     def of_rings(cls, vertices: FloatArray, pairs: IntArray, rings: list[list[int]]) -> OwnCells:
@@ -47,13 +50,18 @@ class OwnCells:
         starts = offsets[:-1]
         inside = given._middles()[pairs[:, 0]]
         away = vertices[corners[starts]] - inside
-        turned = np.einsum("ij,ij->i", given._areas(), away) < 0.0
+        turned = np.einsum("ij,ij->i", given.areas(), away) < 0.0
         sizes = np.diff(offsets)
         face = np.repeat(np.arange(len(rings)), sizes)
         at = np.arange(len(corners))
         mirrored = starts[face] + offsets[1:][face] - 1 - at
         corners = corners[np.where(turned[face], mirrored, at)]
         return cls(vertices, pairs, offsets, corners)
+
+    @classmethod
+    def of_weighted(cls, cells: WeightedCells) -> OwnCells:
+        """Return power cells as given cells."""
+        return cls(cells.vertices, *cells.faces)
 
     @property
     def cells(self) -> int:
@@ -84,13 +92,26 @@ class OwnCells:
         with np.errstate(divide="ignore", invalid="ignore"):  # the kernel refuses such cells
             return volumes, inside + moments / volumes[:, None]
 
+    @property
+    def grains(self) -> int:
+        """Number of cells that are no pores: the first ones."""
+        return self.cells - len(self.pore_spheres)
+
+    def with_pores(self, number: int) -> OwnCells:
+        """Return the same cells, of which the last ones are pores."""
+        return replace(self, pore_spheres=self.spheres()[self.cells - number :])
+
     def spheres(self) -> FloatArray:
         """Rows x, y, z, radius [m]: centroid of each cell, and the ball of its volume."""
         volumes, centroids = self.measured()
         return np.column_stack((centroids, np.cbrt(0.75 / np.pi * volumes)))
 
     def polyhedra(self, spheres: FloatArray, spec: SolidSpec) -> Polyhedra:
-        """The kernel's cells, short edges collapsed.
+        """The kernel's cells, short edges collapsed, without pores.
+
+        Args:
+            spheres: Rows of the grains, see `spheres`.
+            spec: Shape, sizes and limit of edges, which refers to the mean diameter of the grains.
 
         Raises:
             InputError: for cells that are not closed, plane and convex, or do not fill the box or
@@ -98,19 +119,28 @@ class OwnCells:
         """
         short = spec.short_edge * 2.0 * float(np.mean(spheres[:, 3]))
         faces = (self.pairs, self.offsets, self.corners)
-        return call(own_polyhedra, self.vertices, faces, spheres, self.outline(spec), short, self.pores)
+        every = np.vstack((spheres, self.pore_spheres))
+        pores = np.arange(self.grains, self.cells, dtype=np.int32)
+        return call(own_polyhedra, self.vertices, faces, every, self.outline(spec), short, pores)
 
     def outline(self, spec: SolidSpec) -> Solid:
         """Return the outline of the cells; its lateral surface has the facets of the cells."""
         grain = 1.0
         if spec.diameter is not None:
-            grain = math.pi * spec.diameter / max(1, len(self.mantle()))
+            axis = 2 if spec.kind == "cylinder" else 1
+            grain = math.pi * spec.diameter / max(1, len(self.mantle(axis)))
         return SolidFrame.of(spec, grain).solid()
 
-    def mantle(self) -> FloatArray:
-        """Facets of upright outer faces, rows of their angle about z [rad] and offset [m]."""
+    def mantle(self, axis: int = 2) -> FloatArray:
+        """Facets of outer faces along an axis: rows of their angle about it [rad] and offset [m].
+
+        Args:
+            axis: 2: z, of a cylinder; 1: y, of a disc.
+        """
         outer = np.flatnonzero(self.pairs[:, 1] < 0)
-        areas = self._areas()[outer]
+        turned = [*range(axis + 1, 3), *range(axis + 1)]  # the axis comes last
+        vertices = self.vertices[:, turned]
+        areas = self.areas()[outer][:, turned]
         sizes = np.linalg.norm(areas, axis=1)
         kept = (np.abs(areas[:, 2]) < _TURN * sizes) & (sizes > _SMALL * sizes.mean())
         outer, areas = outer[kept], areas[kept]
@@ -120,14 +150,15 @@ class OwnCells:
         facet = np.empty(len(order), dtype=int)
         facet[order] = (np.cumsum(first) - 1) % max(1, int(first.sum()))
         x, y = (np.bincount(facet, one) for one in areas[:, :2].T)
-        turned = np.arctan2(y, x)
-        at = self.vertices[self.corners[self.offsets[outer]]]
-        offsets = at[:, 0] * np.cos(turned[facet]) + at[:, 1] * np.sin(turned[facet])
-        return np.column_stack((turned, np.bincount(facet, offsets) / np.bincount(facet)))
+        angle_of = np.arctan2(y, x)
+        at = vertices[self.corners[self.offsets[outer]]]
+        offsets = at[:, 0] * np.cos(angle_of[facet]) + at[:, 1] * np.sin(angle_of[facet])
+        return np.column_stack((angle_of, np.bincount(facet, offsets) / np.bincount(facet)))
 
     def checksum(self) -> str:
         """Short hash of all of it."""
-        parts = (self.vertices.ravel(), self.pairs.ravel(), self.offsets, self.corners)
+        faces = (self.pairs.ravel(), self.offsets, self.corners)
+        parts = (self.vertices.ravel(), *faces, self.pore_spheres.ravel())
         return checksum(np.concatenate([np.asarray(part, dtype=float) for part in parts]))
 
     def fields(self) -> Table:
@@ -135,7 +166,9 @@ class OwnCells:
         rings = np.split(self.corners, self.offsets[1:-1])
         both = zip(self.pairs.tolist(), rings, strict=True)
         faces = [[*pair, *ring.tolist()] for pair, ring in both]
-        return {"vertices": self.vertices.tolist(), "faces": faces}
+        found = {"vertices": self.vertices.tolist(), "faces": faces}
+        pores = self.pore_spheres.tolist()
+        return found | ({"pore_spheres": pores} if pores else {})
 
     @classmethod
     def of_file(cls, content: Table) -> OwnCells | None:
@@ -152,7 +185,8 @@ class OwnCells:
         offsets = np.cumsum([0, *(len(face) - 2 for face in faces)], dtype=np.int32)
         corners = np.array([v for face in faces for v in face[2:]], dtype=np.int32)
         pairs = np.array([face[:2] for face in faces], dtype=np.int32)
-        found = cls(np.array(vertices, dtype=float), pairs, offsets, corners)
+        pores = np.array(content.get("pore_spheres", ()), dtype=float).reshape(-1, 4)
+        found = cls(np.array(vertices, dtype=float), pairs, offsets, corners, pores)
         if found.checksum() != spec.cells:
             raise refuse(f"cells do not fit the checksum {spec.cells}")
         return found
@@ -167,8 +201,8 @@ class OwnCells:
         corners = self.corners
         return face, corners[starts[kept]], corners[at], corners[at + 1]
 
-    def _areas(self) -> FloatArray:
-        """Area vector of each face."""
+    def areas(self) -> FloatArray:
+        """Area vector of each face, out of its first cell [m2]."""
         face, first, here, after = self._triangles()
         origin = self.vertices[first]
         crossed = np.cross(self.vertices[here] - origin, self.vertices[after] - origin)

@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -27,6 +28,9 @@ from .own_cells import OwnCells
 from .plane_only import PlaneOnly
 from .spec import SHORT_EDGE, SIZES, SolidSpec
 
+if TYPE_CHECKING:
+    from ..volumes.volume_report import VolumeReport
+
 
 @with_old_names
 @dataclass(frozen=True, eq=False)
@@ -44,6 +48,9 @@ class SolidSpecimen(PlaneOnly):
         removed_spheres: Spheres that had no cell and were left out.
         minerals: Index of each grain's mineral in its material; None: sampled by volume fractions.
         given: Given cells, before short edges were collapsed; None: cells of spheres.
+        mineral_names: Names of the minerals of a label volume, in their order. If the material has
+            a mineral of one of these names, it must have the same index.
+        fit: Comparison of a label volume with the cells; None for other specimens, and not saved.
 
     Example:
         >>> core = flexpm.Specimen.cylinder(0.008, 0.012)
@@ -57,6 +64,8 @@ class SolidSpecimen(PlaneOnly):
     removed_spheres: int = 0
     minerals: IntArray | None = None
     given: OwnCells | None = None
+    mineral_names: tuple[str, ...] = ()
+    fit: VolumeReport | None = None
 
     @classmethod
     def pack(cls, spec: SolidSpec, progress: Progress | None = None) -> SolidSpecimen:
@@ -115,16 +124,22 @@ class SolidSpecimen(PlaneOnly):
 
     @classmethod
     def of_cells(
-        cls, given: OwnCells, sizes: dict[str, float], short_edge: float = SHORT_EDGE
+        cls, given: OwnCells, kind: str, sizes: dict[str, float], short_edge: float = SHORT_EDGE
     ) -> SolidSpecimen:
-        """Make a specimen of given cells that fill a box from the origin, or a cylinder about z.
+        """Make a specimen of given cells that fill a box, a cylinder or a disc.
+
+        Args:
+            given: Cells in the place of the shape: a box has a corner at the origin.
+            kind: ``box``, ``cylinder`` or ``solid-disc``.
+            sizes: Sizes of the shape by their names [m].
+            short_edge: Ratio to the mean diameter below which edges are collapsed [-].
 
         Raises:
             InputError: as ``Specimen.from_tess_solid``.
         """
-        spheres = given.spheres()
+        spheres = np.ascontiguousarray(given.spheres()[: given.grains])
         spec = SolidSpec(
-            "cylinder" if "diameter" in sizes else "box",
+            kind,
             sizes.get("width"),
             sizes.get("depth"),
             sizes.get("height"),
@@ -163,7 +178,8 @@ class SolidSpecimen(PlaneOnly):
             raise InputError(
                 f"specimen = {str(path)!r}, has other minerals than it names; save it again"
             )
-        return cls(spheres, cells, spec, content["removed_spheres"], given, own)
+        names = tuple(content.get("mineral_names", ()))
+        return cls(spheres, cells, spec, content["removed_spheres"], given, own, names)
 
     def save(self, path: Path | str) -> None:
         """Write the specimen as JSON: its inputs, its spheres, and given cells.
@@ -177,6 +193,7 @@ class SolidSpecimen(PlaneOnly):
                 "spec": dataclasses.asdict(self.spec),
                 "removed_spheres": self.removed_spheres,
                 **({} if self.minerals is None else {"minerals": self.minerals.tolist()}),
+                **({"mineral_names": list(self.mineral_names)} if self.mineral_names else {}),
                 **({} if self.given is None else self.given.fields()),
                 "spheres": self.spheres.tolist(),
             },
@@ -186,12 +203,7 @@ class SolidSpecimen(PlaneOnly):
         """Return the same grains with a given mineral each; see ``Specimen.with_minerals``."""
         given = mineral_indices(minerals, len(self.spheres))
         spec = dataclasses.replace(self.spec, minerals=checksum(given))
-        return dataclasses.replace(self, minerals=given, spec=spec)
-
-    @property
-    def mineral_names(self) -> tuple[str, ...]:
-        """None: minerals of a 3D specimen are indices into the material."""
-        return ()
+        return dataclasses.replace(self, minerals=given, spec=spec, mineral_names=())
 
     @property
     def kind(self) -> str:

@@ -177,6 +177,7 @@ def specimen_of(path: Path, scale: float, short_edge: float) -> SolidSpecimen:
                 if np.allclose(there, volumes, rtol=_ALIKE, atol=0.0):
                     return SolidSpecimen.of_spheres(spheres, {**sizes}, short_edge=short_edge)
     try:
-        return SolidSpecimen.of_cells(cells, sizes, short_edge)
+        kind = "box" if cylinder is None else "cylinder"
+        return SolidSpecimen.of_cells(cells, kind, sizes, short_edge)
     except InputError as error:  # of a cell or face, which count as in the file
         raise InputError(f"tess = {quoted(str(path))}: {error}") from None

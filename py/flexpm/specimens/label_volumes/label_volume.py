@@ -15,7 +15,7 @@ from ...require import Bounds, quoted, require_list, require_whole
 from ..checks import require_length
 from ..labels.whole import KINDS, whole_numbers
 
-#: AnyArray along x, y and z.
+#: Values along x, y and z.
 Triple = tuple[float, float, float]
 Counts = tuple[int, int, int]
 #: First voxel, and the voxel after the last one, along x, y and z.

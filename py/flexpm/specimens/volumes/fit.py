@@ -1,0 +1,318 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Power cells that fit the labels of voxels. Lengths in metres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ..._flexpm import (
+    Solid,
+    WeightedCells,
+    cells_of_voxels,
+    fit_labels,
+    weighted_cells,
+    weights_of_volumes,
+)
+from ...arrays import BoolArray, FloatArray, IntArray
+from ...errors import InputError
+from ...progress import Progress
+from ..kernel_input import call
+from ..label_volumes.label_volume import Labels
+from ..labels.regions import shared_sides, sides_along_axes
+
+Scores = tuple[FloatArray, FloatArray]
+#: Widths of the soft maximum, in the side of a voxel times the mean radius of a region [-].
+_TEMPERATURES = (1.0, 0.25, 0.0625)
+#: Most voxels of a region in the fit: at its boundary, and of every tenth one inside.
+_MOST_AT_BOUNDARY, _MOST_INSIDE, _TENTH = 400, 100, 10
+#: Rounds of larger weights of regions that lost this share of their voxels against the start [-],
+#: the factor on their weights, and the most that the whole agreement may fall for them [-].
+_ROUNDS, _LOST, _WEIGHT, _GIVEN_UP = 3, 0.01, 1.5, 0.005
+#: Largest relative error of exact volumes [-].
+_EXACT = 1e-7
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """Power cells in a box from the origin, one for each region.
+
+    Attributes:
+        points: Rows x, y, z [m].
+        weights: Weight of each point [m2].
+        cells: The cells.
+        found: Cell of each voxel, (z, y, x).
+        stage: ``start``, the number of the stage of the fit, or ``guard`` with a number.
+        agreement: Share of the voxels that are in the cell of their region [-].
+        own: The same share of each region [-].
+        scores: Slopes and levels of the fit, see ``fit_labels``.
+    """
+
+    points: FloatArray
+    weights: FloatArray
+    cells: WeightedCells
+    found: Labels
+    stage: str
+    agreement: float
+    own: FloatArray
+    scores: Scores
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """The cells of a fit, and those it began with."""
+
+    best: Trial
+    start: Trial
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Regions of voxels in a box from the origin.
+
+    Attributes:
+        regions: Region of each voxel, (z, y, x).
+        spacing: Size of a voxel along x, y, z [m].
+        count: Number of regions; each one has a voxel.
+        grains: Number of grains: the first regions. The others are pieces of pores.
+    """
+
+    regions: Labels
+    spacing: FloatArray
+    count: int
+    grains: int
+
+    @property
+    def counts(self) -> tuple[int, int, int]:
+        """Number of voxels along x, y, z."""
+        z, y, x = self.regions.shape
+        return x, y, z
+
+    @property
+    def sizes(self) -> FloatArray:
+        """Sizes of the box along x, y, z [m]."""
+        found: FloatArray = np.array(self.counts) * self.spacing
+        return found
+
+    @property
+    def voxel(self) -> float:
+        """Volume of a voxel [m3]."""
+        return float(np.prod(self.spacing))
+
+    def voxels(self) -> IntArray:
+        """Number of voxels of each region."""
+        found: IntArray = np.bincount(self.regions.ravel(), minlength=self.count)
+        return found
+
+    def centroids(self) -> FloatArray:
+        """Centroid of each region, (n, 3) [m]."""
+        voxels = self.voxels()
+        found = np.empty((self.count, 3))
+        for axis, size in enumerate(self.spacing.tolist()):
+            # sums of whole numbers: exact, in any order
+            sums = np.zeros(self.count, dtype=np.int64)
+            for k in range(self.counts[axis]):
+                layer = np.take(self.regions, k, axis=2 - axis)
+                sums += (2 * k + 1) * np.bincount(layer.ravel(), minlength=self.count)
+            found[:, axis] = 0.5 * size * sums / voxels
+        return found
+
+    def neighbours(self) -> IntArray:
+        """Pairs of regions that share a side of a voxel, rows of two, the lower one first."""
+        return shared_sides(self.regions)[0]
+
+    def agrees(self, found: Labels) -> BoolArray:
+        """Whether voxels are in the cell of their region; all pieces of pores are one region."""
+        pores = (found >= self.grains) & (self.regions >= self.grains)
+        agree: BoolArray = (found == self.regions) | pores
+        return agree
+
+    def sides(self) -> list[tuple[Labels, Labels]]:
+        """Views of the regions on both sides of each side of voxels, along z, y and x."""
+        return sides_along_axes(self.regions)
+
+    def at_boundary(self) -> BoolArray:
+        """Whether a voxel shares a side with a voxel of another region."""
+        found: BoolArray = np.zeros(self.regions.shape, dtype=bool)
+        for values, marks in zip(self.sides(), sides_along_axes(found), strict=True):
+            met = values[0] != values[1]
+            for mark in marks:
+                np.logical_or(mark, met, out=mark)
+        return found
+
+
+def fit(grid: Grid, progress: Progress | None = None, *, exact: bool = False) -> Fitted:
+    """Fit a power cell to each region of a grid.
+
+    The start has the centroids and the radii of the regions. Three stages of a softer to a sharper
+    fit follow, and the stage with most voxels in the cells of their regions is taken, the start
+    included. Then regions that lost voxels against the start get a larger weight, up to three
+    times, if the whole agreement falls little.
+
+    Args:
+        grid: The regions, two or more.
+        progress: Receives the stages.
+        exact: Change the weights until each cell has the volume of its region.
+
+    Returns:
+        The cells.
+
+    Raises:
+        InputError: if a region loses its cell and volumes are to be exact.
+    """
+    problem = _Problem.of(grid)
+    start = best = problem.start()
+    scores = best.scores
+    for stage, width in enumerate(_TEMPERATURES, start=1):
+        if progress is not None:
+            progress(stage - 1, len(_TEMPERATURES), f"fit of {grid.count} cells, stage {stage}")
+        here = problem.fitted(scores, width, str(stage))
+        scores = here.scores
+        if here.agreement > best.agreement:
+            best = here
+    best = _guarded(problem, start, best)
+    if exact:
+        best = _with_volumes(problem, best)
+    return Fitted(best, start)
+
+
+def _guarded(problem: _Problem, start: Trial, best: Trial) -> Trial:
+    """Give more weight to regions that agree less than at the start; return the best trial."""
+    factors, least = np.ones(problem.grid.count), best.agreement - _GIVEN_UP
+    for round_number in range(1, _ROUNDS + 1):
+        lost = np.maximum(start.own - best.own, 0.0)
+        if best.stage == start.stage or not (lost > _LOST).any():
+            break
+        factors[lost > _LOST] *= _WEIGHT
+        here = problem.fitted(best.scores, _TEMPERATURES[-1], f"guard {round_number}", factors)
+        gain = float(lost.sum() - np.maximum(start.own - here.own, 0.0).sum())
+        if gain <= 0.0 or here.agreement < max(least, start.agreement):
+            break
+        best = here
+    return best
+
+
+@dataclass(frozen=True, eq=False)
+class _Problem:
+    """Voxels of the fit, and what they are fitted with."""
+
+    grid: Grid
+    solid: Solid
+    centroids: FloatArray
+    radii: FloatArray
+    samples: tuple[FloatArray, IntArray, FloatArray]
+    rivals: tuple[IntArray, IntArray]
+
+    @classmethod
+    def of(cls, grid: Grid) -> _Problem:
+        radii = np.cbrt(0.75 / np.pi * grid.voxel * grid.voxels())
+        solid = Solid.box(*grid.sizes.tolist())
+        rivals = _rivals(grid.neighbours(), grid.count)
+        return cls(grid, solid, grid.centroids(), radii, _samples(grid), rivals)
+
+    def start(self) -> Trial:
+        """Cells of the centroids, with the radii of balls of the regions' volumes."""
+        # |x - c|^2 - R^2, up to |x|^2, as a linear score seen from the centroid
+        levels = np.sum(self.centroids**2, axis=1) + self.radii**2
+        return self._measured((self.centroids, levels), "start")
+
+    def fitted(
+        self, scores: Scores, width: float, stage: str, factors: FloatArray | None = None
+    ) -> Trial:
+        """Fit from scores, with a factor on the weights of the voxels of each region."""
+        points, labels, weights = self.samples
+        if factors is not None:
+            weights = weights * factors[labels]
+        size = float(self.radii.mean())
+        options = (width * float(np.cbrt(self.grid.voxel)) * size, size)
+        start = (self.centroids, *scores)
+        found = call(fit_labels, (points, labels, weights), self.rivals, start, options)
+        return self._measured(found, stage)
+
+    def _measured(self, scores: Scores, stage: str) -> Trial:
+        """Make the cells of scores."""
+        slopes, levels = scores
+        # scores may be multiplied by a number and get a linear function without a change of a
+        # cell: points come near to the centroids, far from the points that close the cells
+        middle = self.centroids.mean(axis=0)
+        off, away = slopes - slopes.mean(axis=0), self.centroids - middle
+        factor = float(np.sum(off * away) / np.sum(off * off))
+        points = factor * off + middle
+        weights = factor * (levels - 2.0 * np.sum(slopes * self.centroids, axis=1))
+        weights += np.sum(points**2, axis=1)
+        return self.of_points(points, weights, scores, stage)
+
+    def of_points(
+        self, points: FloatArray, weights: FloatArray, scores: Scores, stage: str
+    ) -> Trial:
+        """Count the voxels in the cells of their regions."""
+        grid = self.grid
+        cells = call(weighted_cells, points, weights, self.solid)
+        box = np.vstack((grid.spacing, np.zeros(3)))
+        found = call(cells_of_voxels, points, weights, cells, grid.counts, box)
+        found = found.reshape(grid.regions.shape)
+        right = np.bincount(grid.regions[grid.agrees(found)], minlength=grid.count)
+        whole = float(right.sum() / grid.regions.size)
+        return Trial(points, weights, cells, found, stage, whole, right / grid.voxels(), scores)
+
+
+def _with_volumes(problem: _Problem, best: Trial) -> Trial:
+    lost = np.flatnonzero(best.cells.volumes <= 0.0)
+    if len(lost):
+        raise InputError(
+            f"Specimen.from_label_volume: volumes = exact, {len(lost)} grains have no cell after "
+            "the fit; raise least_voxels or use fitted volumes"
+        )
+    voxels = problem.grid.voxels()
+    volumes = voxels * (problem.solid.volume / voxels.sum())
+    weights = call(weights_of_volumes, best.points, best.weights, problem.solid, volumes, _EXACT)
+    return problem.of_points(best.points, weights, best.scores, best.stage)
+
+
+def _samples(grid: Grid) -> tuple[FloatArray, IntArray, FloatArray]:
+    """Return the points, regions and weights of the voxels of the fit.
+
+    Voxels of a region are taken at equal distances in their order. Those at the boundary stand for
+    all of them, those inside for every tenth one.
+    """
+    boundary = grid.at_boundary().ravel()
+    order = np.argsort(grid.regions.ravel(), kind="stable")
+    chosen, weights = [], []
+    for rows, most, share in (
+        (order[boundary[order]], _MOST_AT_BOUNDARY, 1),
+        (order[~boundary[order]], _MOST_INSIDE, _TENTH),
+    ):
+        regions = grid.regions.ravel()[rows]
+        there = np.bincount(regions, minlength=grid.count)
+        taken = np.minimum(-(-there // share), most)
+        firsts = np.cumsum(there) - there
+        owner = np.repeat(np.arange(grid.count), taken)
+        place = np.arange(len(owner)) - np.repeat(np.cumsum(taken) - taken, taken)
+        chosen.append(rows[firsts[owner] + place * there[owner] // taken[owner]])
+        weights.append(there[owner] / (share * taken[owner]))
+    voxels = np.concatenate(chosen)
+    z, y, x = np.unravel_index(voxels, grid.regions.shape)
+    points = (np.column_stack((x, y, z)) + 0.5) * grid.spacing
+    labels = grid.regions.ravel()[voxels].astype(np.int32)
+    return np.ascontiguousarray(points), labels, np.concatenate(weights)
+
+
+def _rivals(pairs: IntArray, count: int) -> tuple[IntArray, IntArray]:
+    """Return the regions within two rings of neighbours of each region, itself included."""
+    from scipy.sparse import coo_array, identity
+
+    ones = np.ones(len(pairs), dtype=np.int32)
+    half = coo_array((ones, (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+    ring = (half + half.T + identity(count, dtype=np.int32)).tocsr()
+    both = (ring @ ring).tocsr()
+    both.sort_indices()
+    return both.indptr.astype(np.int32), both.indices.astype(np.int32)
+
+
+def edges_of(cells: WeightedCells) -> npt.NDArray[np.int32]:
+    """Pairs of cells that share a face, rows of two, the lower one first."""
+    pairs = cells.faces[0]
+    found: npt.NDArray[np.int32] = np.unique(pairs[pairs[:, 1] >= 0], axis=0)
+    return found

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Comparison of a label volume with the cells that were fitted to it. SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import BoolArray, IntArray
+from ...files import Table
+from ..label_volumes.label_volume import Labels
+from ..space.own_cells import OwnCells
+from .fit import Fitted, Grid, edges_of
+from .regions import VolumeRegions
+
+#: Agreement below which one convex cell is a poor model of a grain [-].
+POOR = 0.8
+#: Mean ratio of the surface of a staircase of voxels to the surface that it follows [-].
+_STAIRCASE = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class VolumeReport:
+    """Agreement of grains with their cells in the box of the volume.
+
+    Attributes:
+        columns: One value for each grain of the volume, by name; see doc/volumes.
+        totals: Figures of the whole volume, see doc/volumes.
+        regions: Region of each voxel, (z, y, x); regions from ``len(columns["label"])`` on are
+            pieces of pores.
+        cells: Region whose cell has the middle of each voxel inside, (z, y, x).
+        agree: Whether both are the same, or both are in a pore, (z, y, x).
+        spacing: Size of a voxel along x, y, z [m].
+        origin: Corner of the first voxel in the file [m].
+    """
+
+    columns: dict[str, list[float]]
+    totals: Table
+    regions: Labels
+    cells: Labels
+    agree: BoolArray
+    spacing: tuple[float, float, float]
+    origin: tuple[float, float, float]
+
+    @property
+    def poor_grains(self) -> list[int]:
+        """Labels of the grains whose agreement is below `POOR`, worst first."""
+        agreement = np.array(self.columns["agreement"])
+        poor = np.flatnonzero(agreement < POOR)
+        order = poor[np.argsort(agreement[poor], kind="stable")]
+        return [int(self.columns["label"][one]) for one in order]
+
+
+def compare(
+    grid: Grid, found: VolumeRegions, fitted: Fitted, origin: tuple[float, float, float]
+) -> VolumeReport:
+    """Compare regions with their cells.
+
+    Args:
+        grid: The regions.
+        found: What the regions are.
+        fitted: Their cells.
+        origin: Corner of the first voxel in the file [m].
+    """
+    voxels, cells = grid.voxels(), fitted.best.cells
+    volumes = voxels * grid.voxel
+    shift = np.sqrt(np.sum((cells.centroids - grid.centroids()) ** 2, axis=1))
+    shift[cells.volumes <= 0.0] = np.nan
+    of_voxels, of_cells = grid.neighbours(), edges_of(cells).astype(np.int64)
+    keys, others = (pairs @ [grid.count, 1] for pairs in (of_voxels, of_cells))
+    lost = of_voxels[~np.isin(keys, others)]
+    invented = of_cells[~np.isin(others, keys)]
+    columns = {
+        "label": found.ids,
+        "voxels": voxels,
+        "volume": cells.volumes,
+        "agreement": fitted.best.own,
+        "start_agreement": fitted.start.own,
+        "centroid_shift": shift,
+        "neighbours": _counts(of_voxels, grid.count),
+        "neighbours_lost": _counts(lost, grid.count),
+        "neighbours_invented": _counts(invented, grid.count),
+    }
+    rock = slice(found.grains)
+    errors = cells.volumes[rock] / volumes[rock] - 1.0
+    rms = float(np.sqrt(np.mean(errors**2)))
+    both = len(of_voxels) - len(lost)
+    is_pore = grid.regions >= found.grains
+    totals: Table = {
+        "voxels": list(grid.counts),
+        "voxel_size": grid.spacing.tolist(),
+        "grains": found.grains,
+        **found.counts,
+        "start_agreement": fitted.start.agreement,
+        "agreement": fitted.best.agreement,
+        "stage": fitted.best.stage,
+        "grains_below_start": int(np.count_nonzero(fitted.best.own[rock] < fitted.start.own[rock])),
+        "volume_error_rms": rms,
+        "neighbours_f1": 2.0 * both / (len(of_voxels) + len(of_cells)),
+        "boundary_area": _boundary_area(fitted, found.grains),
+        "source_boundary_area": _source_area(grid, found.grains) / _STAIRCASE,
+        "pore_fraction": float(cells.volumes[found.grains :].sum() / cells.volumes.sum()),
+        "source_pore_fraction": float(np.count_nonzero(is_pore) / is_pore.size),
+        "lost_grains": found.ids[rock][cells.volumes[rock] <= 0.0].tolist(),
+    }
+    kept = {name: np.asarray(values)[rock].tolist() for name, values in columns.items()}
+    agree, spacing = grid.agrees(fitted.best.found), tuple(grid.spacing.tolist())
+    made = VolumeReport(kept, totals, grid.regions, fitted.best.found, agree, spacing, origin)
+    totals["poor_grains"] = made.poor_grains
+    return made
+
+
+def _counts(pairs: IntArray, count: int) -> IntArray:
+    found: IntArray = np.bincount(pairs.ravel(), minlength=count)
+    return found
+
+
+def _boundary_area(fitted: Fitted, grains: int) -> float:
+    """Area of the faces between grains [m2]."""
+    own = OwnCells.of_weighted(fitted.best.cells)
+    between = (own.pairs[:, 1] >= 0) & (own.pairs < grains).all(axis=1)
+    return float(np.sqrt(np.sum(own.areas()[between] ** 2, axis=1)).sum())
+
+
+def _source_area(grid: Grid, grains: int) -> float:
+    """Area of the sides of voxels between grains [m2]."""
+    total = 0.0
+    for axis, (one, other) in zip((2, 1, 0), grid.sides(), strict=True):
+        met = (one != other) & (one < grains) & (other < grains)
+        total += float(np.count_nonzero(met)) * grid.voxel / float(grid.spacing[axis])
+    return total

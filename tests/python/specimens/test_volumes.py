@@ -1,0 +1,422 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Label volumes as specimens: agreement, volumes, pores, phases, elastic constants, refusals."""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from drawn_volumes import power_volume, unions
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from refusals import refusal
+from volume_files import FORMATS, write
+
+import flexpm
+from flexpm import Specimen
+from flexpm.cli import main as cli
+from flexpm.errors import InputError
+from flexpm.materials.material import Material
+from flexpm.specimens.label_volumes.label_volume import LabelVolume
+from flexpm.specimens.volumes.regions import Kinds, find
+
+SIDE = 1e-3
+
+
+@functools.cache
+def own_cells():
+    """160 power cells on 40 x 40 x 80 voxels."""
+    return power_volume(160, (40, 40, 80), seed=1)
+
+
+@functools.cache
+def few_cells():
+    return power_volume(40, (20, 16, 24), seed=2)
+
+
+def made(labels, **options):
+    return Specimen.from_label_volume(labels, voxel=SIDE, **options)
+
+
+def checked(specimen, sizes):
+    """A specimen whose cells and pores fill the box."""
+    assert list(specimen.extent.values()) == pytest.approx(sizes, rel=1e-12)
+    pores = specimen.fit.totals["pore_fraction"]
+    volume = specimen.cells.volumes.sum()
+    whole = np.prod(sizes)
+    assert volume == pytest.approx((1.0 - pores) * whole, rel=1e-9 if pores == 0.0 else 0.05)
+    return specimen
+
+
+def test_cells_that_made_the_labels_are_found():
+    volume = own_cells()
+    solid = checked(made(volume.labels), (0.04, 0.04, 0.08))
+    totals = solid.fit.totals
+    assert totals["agreement"] >= 0.995 > totals["start_agreement"]
+    assert totals["grains"] == len(solid.spheres) == 160
+    columns = {name: np.array(values) for name, values in solid.fit.columns.items()}
+    errors = columns["volume"] / volume.cells.volumes - 1.0
+    assert np.sqrt(np.mean(errors**2)) <= 0.01
+    # voxels times the volume of one are the volume of the box, to round-off
+    assert columns["voxels"].sum() * SIDE**3 == pytest.approx(0.04 * 0.04 * 0.08, rel=1e-12)
+    pairs = np.sort(
+        Specimen.from_label_volume(volume.labels, voxel=SIDE, short_edge=0.0).cells.faces[:, :2]
+    )
+    found = {tuple(pair) for pair in pairs.tolist() if pair[0] >= 0}
+    true = {tuple(pair) for pair in volume.neighbours.tolist()}
+    assert 2 * len(found & true) / (len(found) + len(true)) >= 0.99
+    assert columns["centroid_shift"].max() < 0.2 * SIDE
+
+
+@pytest.mark.parametrize(("largest", "least"), [(True, 0.75), (False, 0.65)])
+def test_grains_that_are_not_convex_get_the_best_cells(largest, least):
+    fit = made(unions(own_cells(), 1, largest)).fit
+    totals = fit.totals
+    assert totals["agreement"] >= least
+    assert totals["agreement"] > totals["start_agreement"]
+    assert totals["grains_below_start"] < 0.25 * totals["grains"]
+    agreement, labels = (np.array(fit.columns[name]) for name in ("agreement", "label"))
+    assert fit.poor_grains == totals["poor_grains"]
+    assert len(fit.poor_grains) == np.count_nonzero(agreement < 0.8)
+    assert fit.poor_grains[0] == labels[np.argmin(agreement)]
+
+
+def test_stretched_voxels_fit_as_well():
+    volume = few_cells()
+    whole = made(volume.labels).fit.totals["agreement"]
+    stretched = Specimen.from_label_volume(volume.labels, voxel=(SIDE, SIDE, 2.0 * SIDE))
+    assert stretched.extent["height"] == pytest.approx(0.048, rel=1e-12)
+    assert stretched.fit.totals["agreement"] == pytest.approx(whole, abs=0.01)
+
+
+def test_exact_volumes_are_those_of_the_voxels():
+    solid = made(unions(few_cells(), 1, True), volumes="exact", short_edge=0.0)
+    voxels = np.array(solid.fit.columns["voxels"])
+    assert solid.cells.volumes == pytest.approx(voxels * SIDE**3, rel=1e-6)
+
+
+def test_labels_that_differ_by_their_order_only_give_the_same_grains():
+    """The fit is flat near its best cells, so that round-off moves them a little."""
+    labels = few_cells().labels
+    order = np.random.default_rng(3).permutation(40)
+    one, other = made(labels), made(order[labels] * 1000 - 7)
+    assert np.argsort(order).tolist() == [
+        int(np.argmin(np.linalg.norm(one.centres - centre, axis=1))) for centre in other.centres
+    ]
+    assert other.cells.volumes == pytest.approx(one.cells.volumes[np.argsort(order)], rel=0.01)
+
+
+@functools.cache
+def with_pore():
+    """A ball without rock, of 0.9 grain's volumes and more, in the middle."""
+    labels = few_cells().labels + 1
+    z, y, x = np.indices(labels.shape)
+    return np.where((x - 9.5) ** 2 + (y - 7.5) ** 2 + (z - 11.5) ** 2 < 25.0, 0, labels)
+
+
+def test_pores_are_fitted_and_removed(tmp_path):
+    labels = with_pore()
+    solid = checked(made(labels, minerals={0: None}), (0.02, 0.016, 0.024))
+    totals = solid.fit.totals
+    share = np.count_nonzero(labels == 0) / labels.size
+    assert totals["source_pore_fraction"] == share
+    assert totals["pore_fraction"] == pytest.approx(share, abs=0.005)
+    assert totals["pore_pieces"] > 1 and solid.minerals is None
+    # the walls of the pore are free faces; convex cells in a ball have a larger surface than it
+    walls = len(solid.outline().walls)
+    free = np.flatnonzero(solid.cells.faces[:, 2] == walls)
+    assert set(solid.cells.faces[free, 1]) == {-1}
+    polygons = solid.outer_polygons()
+    area = 0.0
+    for face in free - solid.cells.contacts:
+        ring = solid.cells.vertices[polygons[face]]
+        twice = np.cross(ring[1:-1] - ring[0], ring[2:] - ring[0]).sum(axis=0)
+        area += 0.5 * np.linalg.norm(twice)
+    assert area == pytest.approx(4.0 * np.pi * (5.0 * SIDE) ** 2, rel=0.25)
+    solid.save(tmp_path / "solid.json")
+    again = Specimen.load_solid(tmp_path / "solid.json")
+    assert np.array_equal(again.cells.vertices, solid.cells.vertices)
+    assert np.array_equal(again.cells.faces, solid.cells.faces) and again.spec == solid.spec
+
+
+def test_a_pore_softens_the_rock_within_bounds():
+    """A small ball takes 3 (1 - nu)(9 + 5 nu)/(2 (7 - 5 nu)) = 2.0 times its share (Mackenzie)."""
+    labels = with_pore()
+    rock = flexpm.elastic(made(labels))["youngs_modulus"]
+    found = flexpm.elastic(made(labels, minerals={0: None}))["youngs_modulus"]
+    share = made(labels, minerals={0: None}).fit.totals["pore_fraction"]
+    assert 1.0 - 3.5 * share < found / rock < 1.0 - 1.5 * share
+
+
+def test_islands_and_small_grains_join_a_neighbour():
+    labels = np.ones((8, 8, 8), int)
+    labels[4:] = 2
+    labels[1, 1, 1] = 7  # one voxel
+    labels[6, 6, 6] = 1  # an island of a label that goes on elsewhere
+    labels[2:4, 5:7, 5:7] = 9  # eight voxels are a grain
+    found = find(LabelVolume.of(labels, (SIDE,) * 3), Kinds(), 8)
+    assert found.ids.tolist() == [1, 2, 9] and found.grains == 3
+    assert found.counts["regions"] == 5 and found.counts["small_regions"] == 2
+    assert found.regions[1, 1, 1] == 0 and found.regions[6, 6, 6] == 1
+
+
+def test_parts_of_a_label_are_grains_of_their_own():
+    labels = np.ones((6, 6, 9), int)
+    labels[:, :, 3:6] = 2
+    found = find(LabelVolume.of(labels, (SIDE,) * 3), Kinds(), 8)
+    assert found.ids.tolist() == [1, 1, 2]
+
+
+def test_rock_that_nothing_holds_is_removed():
+    labels = np.zeros((9, 9, 9), int)
+    labels[:3], labels[3:5] = 1, 2
+    labels[7:, 2:5, 2:5] = 3
+    found = find(LabelVolume.of(labels, (SIDE,) * 3), Kinds(pores=frozenset({0})), 8)
+    assert found.ids[: found.grains].tolist() == [1, 2]
+    assert found.counts["loose_grains"] == 1
+    assert found.counts["pore_voxels"] == 9**3 - 5 * 81
+    assert (found.regions[7:, 2:5, 2:5] >= 2).all()
+
+
+def test_watershed_divides_a_phase_where_it_is_narrow():
+    z, y, x = np.indices((16, 16, 30))
+    balls = [(7.5, 7.5, 8.0, 7.0), (7.5, 7.5, 20.0, 7.5)]
+    inside = [(z - a) ** 2 + (y - b) ** 2 + (x - c) ** 2 < r * r for a, b, c, r in balls]
+    volume = LabelVolume.of(np.where(inside[0] | inside[1], 2, 1), (SIDE,) * 3)
+    whole = find(volume, Kinds({1: 0, 2: 1}), 8)
+    assert whole.ids.tolist() == [1, 2]
+    found = find(volume, Kinds({1: 0, 2: 1}), 30, watershed=True)
+    assert np.count_nonzero(found.ids == 2) == 2
+    for own, (a, b, c, r) in zip(inside, balls, strict=True):
+        region = found.regions[int(a), int(b), int(c)]
+        core = (z - a) ** 2 + (y - b) ** 2 + (x - c) ** 2 < (0.7 * r) ** 2
+        assert (found.regions[core] == region).all() and own.any()
+    assert found.minerals.tolist() == [0] * (len(found.ids) - 2) + [1, 1]
+
+
+@pytest.mark.parametrize(("shape", "section"), [("cylinder", "xy"), ("solid-disc", "xz")])
+def test_round_specimens_are_cut_from_the_middle(tmp_path, shape, section):
+    labels = with_pore()
+    minerals = {label: (None if label == 0 else label % 2) for label in range(41)}
+    solid = made(labels, minerals=minerals, shape=shape, diameter=0.016)
+    assert solid.kind == shape and solid.extent["diameter"] == 0.016
+    volume = np.pi / 4.0 * 0.016**2 * {"xy": 0.024, "xz": 0.016}[section]
+    assert solid.outline().volume == pytest.approx(volume, rel=1e-9)
+    # grains that are in the middle of the box are there, with their minerals
+    box = made(labels, minerals=minerals)
+    corner = np.array({"xy": (-0.01, -0.008, 0.0), "xz": (-0.01, 0.0, -0.012)}[section])
+    for centre, mineral in zip(solid.centres, solid.minerals, strict=True):
+        nearest = int(np.argmin(np.linalg.norm(box.centres + corner - centre, axis=1)))
+        if np.linalg.norm(box.centres[nearest] + corner - centre) < 0.1 * SIDE:
+            assert box.minerals[nearest] == mineral
+    solid.save(tmp_path / "solid.json")
+    again = Specimen.load_solid(tmp_path / "solid.json")
+    assert np.array_equal(again.cells.vertices, solid.cells.vertices)
+    assert again.outline().volume == solid.outline().volume
+
+
+ROCK = {
+    "tensile_strength": 1e6,
+    "cohesion": 4e6,
+    "friction": 0.5,
+    "tensile_fracture_energy": 1e6,
+    "shear_fracture_energy": 1e6,
+}
+
+
+def two_minerals(young, poisson, stiffness):
+    """Two minerals behind contacts that hardly give."""
+    elastic = {"young": young[0], "poisson": poisson[0]}
+    other = {"elastic": {"flexible": {"young": young[1], "poisson": poisson[1]}}}
+    kinds = [{"name": "a", "fraction": 0.5}, {"name": "b", "fraction": 0.5, **other}]
+    law = {"normal_stiffness": stiffness, "shear_ratio": 1.0}
+    return Material.from_dict(
+        {**ROCK, "elastic": {"flexible": {**elastic, **law}}, "mineral": kinds}, "two"
+    )
+
+
+def layers(axis):
+    """216 bricks in layers of two minerals, across z or x."""
+    z, y, x = np.indices((24, 24, 24)) // 4
+    labels = (z * 6 + y) * 6 + x + 1
+    phase = {"z": z, "x": x}[axis] % 2
+    first = np.unique(labels, return_index=True)[1]
+    minerals = {label: int(phase.ravel()[at]) for label, at in enumerate(first.tolist(), 1)}
+    return made(labels, minerals=minerals)
+
+
+def test_layers_along_the_load_have_the_mean_modulus():
+    young = (20e9, 60e9)
+    found = flexpm.elastic(layers("x"), two_minerals(young, (0.2, 0.2), 2e17))
+    assert found["youngs_modulus"] == pytest.approx(40e9, rel=1e-3)
+    assert found["poissons_ratio"] == pytest.approx(0.2, rel=1e-3)
+
+
+def test_layers_across_the_load_have_the_mean_compliance_where_they_widen_alike():
+    """With Poisson's ratios like the moduli, all layers widen by the same under one stress."""
+    found = flexpm.elastic(layers("z"), two_minerals((20e9, 60e9), (0.1, 0.3), 2e17))
+    assert found["youngs_modulus"] == pytest.approx(30e9, rel=1e-3)
+
+
+def test_a_mixture_is_within_the_bounds_of_hashin_and_shtrikman():
+    """Phases have several grains: single grains of unlike moduli are 2 to 4 % too stiff."""
+    draw = np.random.default_rng(0)
+    coarse, fine = 60, 480
+    volume = power_volume(fine, (26, 26, 26), seed=4, side=SIDE, relaxations=4)
+    places = volume.cells.centroids
+    centres = draw.random((coarse, 3)) * 0.026
+    owner = np.linalg.norm(places[:, None] - centres, axis=2).argmin(axis=1)
+    sizes = np.bincount(owner, volume.cells.volumes, coarse)
+    stiff = np.zeros(coarse, int)
+    for one in draw.permutation(coarse):
+        if sizes[stiff > 0].sum() + sizes[one] <= 0.5 * sizes.sum():
+            stiff[one] = 1
+    minerals = dict(enumerate(stiff[owner].tolist()))
+    solid = made(volume.labels, minerals=minerals)
+    found = flexpm.elastic(solid, two_minerals((20e9, 60e9), (0.2, 0.2), 2e17))
+    share = solid.cells.volumes[solid.minerals == 1].sum() / solid.cells.volumes.sum()
+    low, high = hashin_shtrikman(20e9, 60e9, 0.2, share)
+    assert 0.985 * low < found["youngs_modulus"] < 1.015 * high
+
+
+def hashin_shtrikman(soft, stiff, poisson, share):
+    """Bounds of Young's modulus, of the bounds of bulk and shear modulus."""
+
+    def moduli(young):
+        return young / (3.0 * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson))
+
+    def bound(matrix, other, part):
+        (bulk, shear), (of_bulk, of_shear) = matrix, other
+        k = bulk + part / (1 / (of_bulk - bulk) + 3 * (1 - part) / (3 * bulk + 4 * shear))
+        stiffness = 6 * (1 - part) * (bulk + 2 * shear) / (5 * shear * (3 * bulk + 4 * shear))
+        g = shear + part / (1 / (of_shear - shear) + stiffness)
+        return 9 * k * g / (3 * k + g)
+
+    return bound(moduli(soft), moduli(stiff), share), bound(moduli(stiff), moduli(soft), 1 - share)
+
+
+def test_phases_of_a_file_become_minerals(tmp_path):
+    labels = few_cells().labels + 1
+    volume = LabelVolume.of(labels, (SIDE,) * 3)
+    phases = np.where(volume.ids % 3 == 0, 5, 2)
+    solid = Specimen.from_label_volume(replace(volume, phases=phases, phase_names={5: "quartz"}))
+    assert solid.mineral_names == ("phase 2", "quartz")
+    assert solid.minerals.tolist() == (volume.ids % 3 == 0).astype(int).tolist()
+    solid.save(tmp_path / "solid.json")
+    assert Specimen.load_solid(tmp_path / "solid.json").mineral_names == solid.mineral_names
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_all_formats_make_the_same_specimen(tmp_path, name):
+    if name.endswith(".dream3d"):
+        pytest.importorskip("h5py")
+    labels = few_cells().labels[:9, :9, :9].astype(np.uint8) + 1
+    path, options = write(tmp_path, name, labels)
+    expected = Specimen.from_label_volume(labels, voxel=SIDE)
+    expected.save(tmp_path / "expected.json")
+    Specimen.from_label_volume(path, voxel=SIDE, **options).save(tmp_path / "found.json")
+    one, other = (tmp_path / f"{name}.json" for name in ("expected", "found"))
+    assert one.read_bytes() == other.read_bytes()
+
+
+COMMAND = ["specimen", "volume", "--quiet"]
+
+
+def test_command_writes_grains_report_and_pictures(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    np.save("scan.npy", with_pore().astype(np.uint8))
+    (tmp_path / "phases.toml").write_text('0 = "hole"\n')
+    arguments = ["scan.npy", "--voxel", "1e-3", "--phases", "phases.toml", "--out", "made"]
+    assert cli.main([*COMMAND, *arguments]) == 0
+    names = {path.name for path in (tmp_path / "made").iterdir()}
+    tables = {"specimen.json", "volume.csv", "solid.json"}
+    assert names == tables | {"specimen.png", "specimen.vtu", "volume.png"}
+    content = json.loads((tmp_path / "made" / "specimen.json").read_text())["volume"]
+    assert content["source"] == "scan.npy" and content["voxels"] == [20, 16, 24]
+    lines = (tmp_path / "made" / "volume.csv").read_text().splitlines()
+    assert len(lines) == content["grains"] + 1 and lines[0].startswith("label,voxels,volume,")
+    assert "volume.png" in capsys.readouterr().out
+
+
+def test_threads_change_no_bit(tmp_path):
+    np.save(tmp_path / "scan.npy", with_pore().astype(np.uint8))
+    script = (
+        "import flexpm, sys; flexpm.Specimen.from_label_volume('scan.npy', voxel=1e-3)"
+        ".save('four.json')"
+    )
+    paths = os.pathsep.join(path for path in sys.path if path)
+    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
+    settings = {**os.environ, **dict.fromkeys(names, "4"), "PYTHONPATH": paths}
+    command = [sys.executable, "-c", script]
+    subprocess.run(command, check=True, env=settings, timeout=600, cwd=tmp_path)
+    made(with_pore()).save(tmp_path / "here.json")
+    assert (tmp_path / "here.json").read_bytes() == (tmp_path / "four.json").read_bytes()
+
+
+PHASES = [
+    ('0 = "hole"\n1 = "quartz"\n', "volume phase = 2, is missing in phases.toml; so are 38 others"),
+    ("", "phases = 'phases.toml', is empty"),
+    ('quartz = "1"\n', "phases key = 'quartz', must be a whole number"),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), PHASES)
+def test_phases_that_do_not_fit_are_refused(tmp_path, capsys, monkeypatch, text, words):
+    monkeypatch.chdir(tmp_path)
+    np.save("scan.npy", with_pore().astype(np.uint8))
+    (tmp_path / "phases.toml").write_text(text)
+    assert cli.main([*COMMAND, "scan.npy", "--voxel", "1e-3", "--phases", "phases.toml"]) == 2
+    assert words in capsys.readouterr().err
+
+
+REFUSED = [
+    ({"voxel": None}, "voxel = None, must be given for an array"),
+    ({"least_voxels": 0}, "least_voxels = 0, must be >= 1"),
+    ({"least_voxels": 10**6}, "grains = 1, must be 2 to"),
+    ({"shape": "cylinder"}, "diameter = None, must be given for a cylinder"),
+    ({"diameter": 0.01}, "diameter = 0.01, must be left out for a box"),
+    (
+        {"shape": "cylinder", "diameter": 0.018},
+        "must be <= 0.016 m, the size of",
+    ),
+    ({"shape": "ball"}, "shape = 'ball', must be one of box"),
+    ({"volumes": "all"}, "volumes = 'all', must be one of fitted"),
+    ({"minerals": {1: 0, 2: 1}}, "mineral of label 0 and of 37 others is missing"),
+    ({"minerals": {1: -1}}, "minerals[1] = -1, must be >= 0"),
+    ({"minerals": dict.fromkeys(range(40))}, "all labels are pores"),
+    ({"crop": ((0, 4),) * 3}, "crop = ((0, 4), (0, 4), (0, 4)), is for files only"),
+]
+
+
+@pytest.mark.parametrize(("options", "words"), REFUSED)
+def test_values_out_of_range_are_refused(options, words):
+    given_options = {"voxel": SIDE, **options}
+    refusal(words, Specimen.from_label_volume, few_cells().labels, **given_options)
+
+
+@given(st.data())
+@settings(max_examples=40, deadline=None)
+def test_any_labels_make_a_specimen_or_are_refused(data):
+    """Labels of any shape: not connected, not convex, one voxel thin."""
+    counts = data.draw(st.tuples(*[st.integers(2, 7)] * 3), label="counts")
+    kinds = data.draw(st.integers(1, 6), label="labels")
+    seed = data.draw(st.integers(0, 2**31), label="seed")
+    least = data.draw(st.integers(1, 4), label="least_voxels")
+    has_pores = data.draw(st.booleans(), label="has_pores")
+    labels = np.random.default_rng(seed).integers(0, kinds, counts)
+    minerals = {0: None} if has_pores else None
+    try:
+        solid = made(labels, least_voxels=least, minerals=minerals)
+    except InputError as error:
+        assert "\n" not in str(error)
+        return
+    totals = solid.fit.totals
+    assert totals["agreement"] >= totals["start_agreement"]
+    assert solid.cells.volumes.min() > 0.0
+    assert len(solid.spheres) == solid.cells.cells
