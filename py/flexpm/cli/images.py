@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 _UNITS = {"diameter": (1e3, "mm"), "length": (1e3, "mm"), "edge": (1e3, "mm")}
 
-#: Ratio of the compliances of contacts and grains above which a message is printed [-].
-_SOFT = 1.0
+#: Ratio of the edges within grains to the boundaries above which a message is printed [-].
+_ADDED = 0.1
 #: Out of plane [m].
 _THICKNESS = 0.08
 _thickness = length_option("--thickness", _THICKNESS, "Thickness out of plane", sizes=False)
@@ -203,7 +203,7 @@ def _describe(made: Specimen, folder: Path) -> None:
     inputs.tell_lengths(made.extent, (made.mean_diameter,))
     import numpy as np
 
-    from ..laboratory.forecast import forecast, softness
+    from ..laboratory.forecast import SOFT, forecast, softness
     from ..report import maps
     from ..specimens.labels.measures import named, of_grains
 
@@ -238,10 +238,16 @@ def _describe(made: Specimen, folder: Path) -> None:
         told = f"about {steps} steps, {times}"
         terminal.say(f"  its {test} with the default material, if it passes a peak: {told}")
     soft = softness(made)
-    if soft > _SOFT:
+    if soft > SOFT:
         terminal.say(
             f"  contacts of the default material are {soft:.2g} times as compliant as grains of "
             "this size: give normal_stiffness and fracture energies for it"
+        )
+    added = found["added_boundary_length"] / found["boundary_length"]
+    if added > _ADDED:
+        terminal.say(
+            f"  cuts of grains into convex cells add {100 * added:.0f} % to the length of the "
+            "boundaries, and cracks may follow them through a grain"
         )
     if names:
         terminal.say(f"  minerals of the material, in this order: {', '.join(names)}")

@@ -37,6 +37,7 @@ from . import inputs, runs, signals, terminal
 from . import options as cli_options
 from . import scorecard as cli_scorecard
 from . import solids as cli_solids
+from . import volumes as cli_volumes
 from .parameters import Count
 
 if TYPE_CHECKING:
@@ -117,6 +118,8 @@ def disc(out: Path, quiet: bool, mesh: str | None, **options: Any) -> None:
 specimen.add_command(cli_images.image)
 specimen.add_command(cli_images.ebsd)
 specimen.add_command(cli_images.tess)
+specimen.add_command(cli_volumes.volume)
+specimen.add_command(cli_volumes.table)
 specimen.add_command(cli_solids.box)
 specimen.add_command(cli_solids.cylinder)
 specimen.add_command(cli_solids.solid_disc)

@@ -45,6 +45,13 @@ def length_option(name: str, default: float, help_text: str, *, sizes: bool = Tr
     )
 
 
+def required_length(name: str, help_text: str) -> Decorator:
+    """A length without a default."""
+    return click.option(
+        name, type=Quantity("m", POSITIVE), required=True, metavar="M", help=f"{help_text} [m]."
+    )
+
+
 rectangle_options = combined(
     length_option("--width", SIZES["rectangle"]["width"], "Width"),
     length_option("--height", SIZES["rectangle"]["height"], "Height"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import re
+from typing import Any
 
 import click
 
@@ -102,6 +103,51 @@ class Place(click.ParamType):
         length = Quantity("m", ANY)
         x, y = (length.convert(part.strip(), param, ctx) for part in parts)
         return x, y
+
+
+class Several(click.ParamType):
+    """Several values between commas, in a fixed order."""
+
+    name = "list"
+
+    def __init__(self, kind: click.ParamType, numbers: tuple[int, ...]) -> None:
+        self._kind, self._numbers = kind, numbers
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[Any, ...] | Any:
+        """Return the values, a single one alone, or raise InputError."""
+        if isinstance(value, tuple):
+            return value
+        parts = [part.strip() for part in str(value).split(",")]
+        if len(parts) not in self._numbers:
+            told = " or ".join(map(str, self._numbers))
+            raise InputError(
+                f"{label_of(param)} = {value}, must be {told} numbers; write commas between them"
+            )
+        found = tuple(self._kind.convert(part, param, ctx) for part in parts)
+        return found if len(found) > 1 else found[0]
+
+
+class Window(click.ParamType):
+    """Parts X0:X1,Y0:Y1,Z0:Z1 of three axes, in voxels."""
+
+    name = "window"
+    _PART = re.compile(r"([0-9]{1,9}):([0-9]{1,9})")
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[tuple[int, int], ...]:
+        """Return first and end of each part, or raise InputError."""
+        if isinstance(value, tuple):
+            return value
+        parts = [self._PART.fullmatch(part.strip()) for part in str(value).split(",")]
+        found = tuple((int(part[1]), int(part[2])) for part in parts if part is not None)
+        if len(found) != len(parts) or len(found) != 3:
+            raise InputError(
+                f"{label_of(param)} = {value}, must be three parts; write X0:X1,Y0:Y1,Z0:Z1"
+            )
+        return found
 
 
 class Count(click.ParamType):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..dimensions import SOLIDS
-from ..files import json_text, write_text
+from ..files import Table, json_text, write_text
 from ..kinds.registry import ELASTIC, KINDS, names
 from ..report import tables
 from ..specimens.space.spec import SIZES, SolidSpec
@@ -122,8 +122,14 @@ def _make(spec: SolidSpec, out: Path, quiet: bool) -> None:
     describe(made, folder)
 
 
-def describe(made: SolidSpecimen, folder: Path) -> None:
-    """Print the statistics and write them with the specimen, its mesh and its picture."""
+def describe(made: SolidSpecimen, folder: Path, source: Table | None = None) -> None:
+    """Print the statistics and write them with the specimen, its mesh and its picture.
+
+    Args:
+        made: The specimen.
+        folder: Folder of the files.
+        source: Figures of the source of the specimen, which are written, too.
+    """
     from ..report.outside import outside_picture
     from ..results.solids.vtu import SolidShape, write_solid_vtu
 
@@ -132,7 +138,7 @@ def describe(made: SolidSpecimen, folder: Path) -> None:
     ends = cells.face_offsets[: cells.contacts + 1]
     corners = cells.face_vertices[: ends[-1]]
     shape = SolidShape(*made.tetrahedra(), cells.vertices, corners, ends, pairs)
-    write_text(folder / "specimen.json", json_text(found))
+    write_text(folder / "specimen.json", json_text(found | (source or {})))
     made.save(folder / "solid.json")
     write_solid_vtu(folder / "specimen.vtu", shape)
     caption = f"{found['grains']} grains, {found['contacts']} contacts"

@@ -98,7 +98,8 @@ TEST_CASE("cells get the volumes that are given", "[space]")
         // weights are unique but for a number that is added to all
         const double apart = at.weights[0] - spheres[0].radius * spheres[0].radius;
         for (std::size_t i = 0; i < spheres.size(); ++i)
-            REQUIRE(std::abs(at.weights[i] - apart - spheres[i].radius * spheres[i].radius) < 1e-11);
+            REQUIRE(
+                std::abs(at.weights[i] - apart - spheres[i].radius * spheres[i].radius) < 1e-11);
     }
     SECTION("any volumes")
     {
@@ -123,8 +124,9 @@ TEST_CASE("cells get the volumes that are given", "[space]")
 
 TEST_CASE("two points in one place are refused by their indices", "[space]")
 {
-    const WeightedPoints twice { { { 1e-3, 1e-3, 1e-3 }, { 2e-3, 1e-3, 1e-3 }, { 1e-3, 1e-3, 1e-3 } },
-        { 0.0, 0.0, 1e-7 } };
+    const WeightedPoints twice {
+        { { 1e-3, 1e-3, 1e-3 }, { 2e-3, 1e-3, 1e-3 }, { 1e-3, 1e-3, 1e-3 } }, { 0.0, 0.0, 1e-7 }
+    };
     REQUIRE_THROWS_WITH(weighted_cells(twice, cube()), Catch::Contains("point 2"));
 }
 

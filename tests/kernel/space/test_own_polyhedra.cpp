@@ -134,6 +134,7 @@ TEST_CASE("pores are taken out, and their walls are free", "[space]")
     REQUIRE(flanks == Approx(expected).epsilon(0.05));  // but for short edges
     for (const std::vector<int>& pores : { std::vector<int> { 60 }, { 5, 5 }, { 9, 3 } }) {
         own.pores = pores;
-        REQUIRE_THROWS_WITH(own_polyhedra(own, cube(), 0.0), Catch::Contains("own_polyhedra: pore"));
+        REQUIRE_THROWS_WITH(
+            own_polyhedra(own, cube(), 0.0), Catch::Contains("own_polyhedra: pore"));
     }
 }

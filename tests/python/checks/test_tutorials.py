@@ -54,6 +54,20 @@ def test_thin_section(package_parent, tmp_path):
 
 
 @pytest.mark.long
+def test_label_volume(package_parent, tmp_path):
+    text = printed("label_volume.py", package_parent, str(tmp_path))
+    kept, grains, agree = re.search(r"(\d+) of (\d+) grains, ([\d.]+) %", text).groups()
+    assert 150 < int(kept) <= int(grains) <= 170 and float(agree) > 98.0
+    made, drawn = map(float, re.search(r"pore ([\d.]+) %, in the scan ([\d.]+) %", text).groups())
+    assert made == pytest.approx(drawn, abs=0.2)
+    pairs = dict(re.findall(r"^(\w+/\w+) +(\d+) points", text, re.MULTILINE))
+    assert {*pairs} == {"feldspar/feldspar", "feldspar/quartz", "quartz/quartz"}
+    assert int(pairs["quartz/quartz"]) < int(pairs["feldspar/feldspar"])
+    for name in ("volume.png", "core/outside.png", "core/cracks.csv"):
+        assert (tmp_path / name).stat().st_size > 1000
+
+
+@pytest.mark.long
 def test_first_test(package_parent, tmp_path):
     text = printed("first_test.py", package_parent, str(tmp_path))
     solved, tested = map(float, re.findall(r"E = ([\d.]+) GPa", text))

@@ -13,8 +13,8 @@ namespace {
 
 /// Newton's step of the weights for a change of the volumes. The first point keeps its weight,
 /// since a number added to all weights changes no volume.
-std::vector<double> newton_step(const WeightedPoints& at, const WeightedCells& cells,
-    const std::vector<double>& changes)
+std::vector<double> newton_step(
+    const WeightedPoints& at, const WeightedCells& cells, const std::vector<double>& changes)
 {
     const int free = cells.complex.cells - 1;
     std::vector<Eigen::Triplet<double>> entries;
@@ -33,8 +33,8 @@ std::vector<double> newton_step(const WeightedPoints& at, const WeightedCells& c
     Eigen::SparseMatrix<double> matrix(free, free);
     matrix.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
-    const Eigen::VectorXd found
-        = factors.solve(Eigen::Map<const Eigen::VectorXd>(changes.data() + 1, free));
+    const Eigen::VectorXd found =
+        factors.solve(Eigen::Map<const Eigen::VectorXd>(changes.data() + 1, free));
     std::vector<double> step(changes.size(), 0.0);
     for (int i = 0; i < free; ++i)
         step[i + 1] = found[i];

@@ -37,13 +37,12 @@ void require(bool fits, const std::string& quantity, const std::string& rule)
     if (!fits) refuse("fit_labels: " + quantity, "of another size or range", rule);
 }
 
-void require_sound(
-    const LabelSamples& s, const LabelScores& start, const LabelFitOptions& options)
+void require_sound(const LabelSamples& s, const LabelScores& start, const LabelFitOptions& options)
 {
     const auto labels = static_cast<std::size_t>(start.labels());
     const auto in_range = [&](int label) { return label >= 0 && label < start.labels(); };
-    require(start.centres.size() == labels && start.slopes.size() == labels && labels > 0,
-        "start", "must be a centre, a slope and a level for each label");
+    require(start.centres.size() == labels && start.slopes.size() == labels && labels > 0, "start",
+        "must be a centre, a slope and a level for each label");
     require(s.labels.size() == s.points.size() && s.weights.size() == s.points.size()
             && !s.points.empty(),
         "samples", "must be a point, a label and a weight for each voxel");
@@ -84,8 +83,8 @@ public:
             tied.emplace_back(slope_scale * c.x, slope_scale * c.y, slope_scale * c.z, 0.0);
         }
         // |a - centre|^2 / size^2 in the scaled unknowns, for a mean over the labels
-        stiffness = 2.0 * o.tie
-            / (static_cast<double>(now.size()) * square(o.size) * square(slope_scale));
+        stiffness =
+            2.0 * o.tie / (static_cast<double>(now.size()) * square(o.size) * square(slope_scale));
     }
 
     LabelScores run()
@@ -183,7 +182,7 @@ private:
 
     double loss() const
     {
-        return visit([](auto&&...) { }) + tie_loss();
+        return visit([](auto&&...) {}) + tie_loss();
     }
 
     /// Shares, gradient and the blocks of the preconditioner at the present unknowns.
@@ -198,9 +197,8 @@ private:
             const double weight = samples.weights[k] / total;
             for (std::size_t r = 0; r < scores.size(); ++r) {
                 const int rival = samples.rivals[first + static_cast<int>(r)];
-                const double share = scores[r] > most - 40.0
-                    ? std::exp(scores[r] - most) / exponentials
-                    : 0.0;
+                const double share =
+                    scores[r] > most - 40.0 ? std::exp(scores[r] - most) / exponentials : 0.0;
                 const bool is_own = rival == samples.labels[k];
                 if (share < least_share && !is_own) continue;
                 const Four f = features(rival, samples.points[k]);

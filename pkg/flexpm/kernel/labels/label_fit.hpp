@@ -28,9 +28,9 @@ struct LabelScores {
 
 /// Voxels of which the labels are known, and the labels that compete for them.
 struct LabelSamples {
-    std::vector<Vector> points;    ///< middles of voxels
-    std::vector<int> labels;       ///< per point
-    std::vector<double> weights;   ///< per point, above 0
+    std::vector<Vector> points;      ///< middles of voxels
+    std::vector<int> labels;         ///< per point
+    std::vector<double> weights;     ///< per point, above 0
     std::vector<int> rival_offsets;  ///< of each label in `rivals`, and the end
     std::vector<int> rivals;         ///< labels near a label, itself included
 };

@@ -155,8 +155,8 @@ void finish_cells(
         return std::binary_search(p.hidden_spheres.begin(), p.hidden_spheres.end(), cell);
     };
     for (const CellFace& face : complex.faces) {
-        const bool is_contact
-            = face.second >= 0 && !is_hidden(face.first) && !is_hidden(face.second);
+        const bool is_contact =
+            face.second >= 0 && !is_hidden(face.first) && !is_hidden(face.second);
         p.uncollapsed_contacts += is_contact ? 1 : 0;
     }
     p.short_edges = collapse_short_edges(complex, centres, short_edge);

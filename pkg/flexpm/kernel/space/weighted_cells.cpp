@@ -57,8 +57,8 @@ std::vector<Sphere> spheres_of(const WeightedPoints& given)
 WeightedCells weighted_cells(const WeightedPoints& given, const Solid& solid)
 {
     require_sound(given);
-    const double close
-        = zero_edge * std::cbrt(solid.volume / static_cast<double>(given.points.size()));
+    const double close =
+        zero_edge * std::cbrt(solid.volume / static_cast<double>(given.points.size()));
     WeightedCells cells;
     cells.complex = power_cells(spheres_of(given), solid);
     cut_by_walls(cells.complex, solid, close);

@@ -160,8 +160,9 @@ void require_cells_of(const Solid& solid, const Polyhedra& cells, const Surfaced
         has_pores = has_pores || f.wall == walls;
         if (f.wall < 0 || f.wall > walls) {
             refuse("solid_constants: wall of a facet", static_cast<double>(f.wall), "",
-                "must be below " + std::to_string(walls) + ", or that for the walls of pores; give "
-                "the solid of the cells");
+                "must be below " + std::to_string(walls)
+                    + ", or that for the walls of pores; give "
+                      "the solid of the cells");
         }
     }
     double volume = 0.0;

@@ -72,7 +72,7 @@ namespace {
 
 	py::object cellsOfVoxels(py::object points, py::object weights, const WeightedCells& cells, py::tuple counts, py::object box)
 	{
-		const auto         rows = vectorsOf(box, "box");
+		const auto        rows = vectorsOf(box, "box");
 		flexpm::VoxelGrid grid { {}, rows.at(0), rows.at(1) };
 		for (int axis = 0; axis < 3; ++axis)
 			grid.counts[axis] = py::extract<int>(counts[axis]);
@@ -81,8 +81,11 @@ namespace {
 
 	py::tuple fitLabels(py::tuple samples, py::tuple rivals, py::tuple start, py::tuple options)
 	{
-		const flexpm::LabelSamples given { vectorsOf(samples[0], "points"), valuesOf<int>(samples[1], "labels"), valuesOf<double>(samples[2], "weights"),
-			                           valuesOf<int>(rivals[0], "offsets"), valuesOf<int>(rivals[1], "rivals") };
+		const flexpm::LabelSamples given { vectorsOf(samples[0], "points"),
+			                           valuesOf<int>(samples[1], "labels"),
+			                           valuesOf<double>(samples[2], "weights"),
+			                           valuesOf<int>(rivals[0], "offsets"),
+			                           valuesOf<int>(rivals[1], "rivals") };
 		const flexpm::LabelScores  from { vectorsOf(start[0], "centres"), vectorsOf(start[1], "slopes"), valuesOf<double>(start[2], "levels") };
 		flexpm::LabelFitOptions    how;
 		how.temperature  = py::extract<double>(options[0]);
@@ -112,7 +115,8 @@ void register_label_bindings()
 	py::def("cells_of_voxels",
 	        cellsOfVoxels,
 	        (py::arg("points"), py::arg("weights"), py::arg("cells"), py::arg("counts"), py::arg("box")),
-	        "Return the cell of the middle of each voxel, x fastest. counts: voxels along x, y, z; box: rows of the size of a voxel and of the lower corner of "
+	        "Return the cell of the middle of each voxel, x fastest. counts: voxels along x, y, z; box: rows of the size of a voxel and of the lower "
+	        "corner of "
 	        "the first voxel [m].");
 	py::def("fit_labels",
 	        fitLabels,
