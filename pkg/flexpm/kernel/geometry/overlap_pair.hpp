@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// @file  How the overlap of a pair is integrated, for both dimensions: included where PairOverlap
+/// is compiled.
+///
+/// The overlap is never built. The part R_f of it that is nearest to a counted plane f is bounded
+/// by its ridges d_f = d_g towards other counted planes g, by walls, and by f. Each of these is a
+/// polygon (a segment in 2D) in a known plane, cut by all other conditions, alone: no topology can
+/// fail. A cone from a point of f over each of them adds to volume, moment and energy of R_f in
+/// closed form; cones over the face of R_f in f have no height, and its area follows from the
+/// sum of area vectors, which is 0.
+#pragma once
+
+#include <flexpm/kernel/geometry/overlap.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flexpm {
+
+namespace overlap_detail {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Planes are equal, and a clearance leaves no overlap, up to this part of the size of a pair.
+constexpr double round_off = 1e-13, birth_margin = 1e-12;
+
+inline Vector componentwise_abs(Vector a)
+{
+    return { std::abs(a.x), std::abs(a.y), std::abs(a.z) };
+}
+
+}  // namespace overlap_detail
+
+/// Planes and points of a body in the frame of the pair.
+template <class Room>
+void PairOverlap<Room>::load(const ContactBody& body, Vector from, double clearance, int which)
+{
+    shift[which] = from;
+    planes[which].resize(body.faces);
+    for (int f = 0; f < body.faces; ++f) {
+        ContactPlane p = body.planes[f];
+        p.offset += dot(p.normal, from) - (p.counted ? clearance : 0.0);
+        planes[which][f] = p;
+    }
+    // planes that move outwards leave the given points behind
+    if (body.count == 0 || clearance < 0.0) {
+        own_points(which);
+        return;
+    }
+    x[which].resize(body.count);
+    y[which].resize(body.count);
+    z[which].resize(body.count);
+    for (int i = 0; i < body.count; ++i) {
+        x[which][i] = body.points[i].x + from.x;
+        y[which][i] = body.points[i].y + from.y;
+        z[which][i] = body.points[i].z + from.z;
+    }
+}
+
+/// Corners of a body from its planes: each face is cut out of its plane by all others.
+template <class Room> void PairOverlap<Room>::own_points(int which)
+{
+    const std::vector<ContactPlane>& p = planes[which];
+    const int faces = static_cast<int>(p.size());
+    const Vector from = shift[which];
+    double size = 0.0;
+    for (const ContactPlane& plane : p)
+        size = std::max(size, std::abs(plane.offset - dot(plane.normal, from)));
+    x[which].clear();
+    y[which].clear();
+    z[which].clear();
+    piece.reserve(faces);
+    for (int f = 0; f < faces; ++f) {
+        const auto [first, second] = Room::tangents(p[f].normal);
+        const Vector origin = from + (p[f].offset - dot(p[f].normal, from)) * p[f].normal;
+        piece.start(100.0 * size);  // a body is not that long
+        bool left = true;
+        for (int k = 0; k < faces && left; ++k) {
+            if (k == f) continue;
+            left = piece.cut(p[k].offset - dot(p[k].normal, origin), dot(p[k].normal, first),
+                dot(p[k].normal, second));
+        }
+        for (int i = 0; left && i < piece.corners(); ++i) {
+            const std::array<double, 2> at = piece.corner(i);
+            const Vector corner = origin + at[0] * first + at[1] * second;
+            // a corner belongs to the first of its planes
+            bool known = false;
+            for (int k = 0; k < f && !known; ++k)
+                known = std::abs(p[k].offset - dot(p[k].normal, corner))
+                    <= overlap_detail::round_off * size;
+            if (known) continue;
+            x[which].push_back(corner.x);
+            y[which].push_back(corner.y);
+            z[which].push_back(corner.z);
+        }
+    }
+}
+
+/// Least of normal . x over the points of a body: the offset of a plane minus this is the depth to
+/// which the points enter.
+template <class Room> double PairOverlap<Room>::lowest_over(int plane, int which) const
+{
+    const Vector n = planes[1 - which][plane].normal;
+    const double *px = x[which].data(), *py = y[which].data(), *pz = z[which].data();
+    const int count = static_cast<int>(x[which].size());
+    double least = overlap_detail::infinite;
+#pragma omp simd reduction(min : least)
+    for (int i = 0; i < count; ++i) {
+        const double along = n.x * px[i] + n.y * py[i] + n.z * pz[i];
+        least = along < least ? along : least;
+    }
+    return least;
+}
+
+/// Bounds, along the axes of the box, of the part of a body that lies below a plane of the other.
+template <class Room>
+void PairOverlap<Room>::extend(int which, int plane, std::array<double, 6>& bounds)
+{
+    const ContactPlane& p = planes[1 - which][plane];
+    inside.clear();
+    outside.clear();
+    std::array<double, 6> own { overlap_detail::infinite, -overlap_detail::infinite,
+        overlap_detail::infinite, -overlap_detail::infinite, overlap_detail::infinite,
+        -overlap_detail::infinite };
+    const auto include = [&own](double e0, double e1, double e2) {
+        own = { std::min(own[0], e0), std::max(own[1], e0), std::min(own[2], e1),
+            std::max(own[3], e1), std::min(own[4], e2), std::max(own[5], e2) };
+    };
+    for (std::size_t i = 0; i < x[which].size(); ++i) {
+        const Vector at { x[which][i], y[which][i], z[which][i] };
+        const std::array<double, 4> row { p.offset - dot(p.normal, at), dot(box.axes[0], at),
+            dot(box.axes[1], at), dot(box.axes[2], at) };
+        if (row[0] >= 0.0) {
+            include(row[1], row[2], row[3]);
+            inside.push_back(row);
+        } else {
+            outside.push_back(row);
+        }
+    }
+    for (const std::array<double, 4>& i : inside) {
+        for (const std::array<double, 4>& o : outside) {
+            const double t = i[0] / (i[0] - o[0]);
+            include(i[1] + t * (o[1] - i[1]), i[2] + t * (o[2] - i[2]), i[3] + t * (o[3] - i[3]));
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        bounds[2 * k] = std::max(bounds[2 * k], own[2 * k]);
+        bounds[2 * k + 1] = std::min(bounds[2 * k + 1], own[2 * k + 1]);
+    }
+}
+
+/// Box round the overlap, along the plane that the other body enters least. False if a plane parts
+/// both bodies, or the box is empty.
+template <class Room> bool PairOverlap<Room>::find_box(int* separating)
+{
+    const int first = static_cast<int>(planes[0].size());
+    const int all = first + static_cast<int>(planes[1].size());
+    const auto entered = [&](int face) {
+        const int own = face < first ? 0 : 1, plane = own == 0 ? face : face - first;
+        return planes[own][plane].offset - lowest_over(plane, 1 - own);
+    };
+    const int remembered = separating ? *separating : -1;
+    if (remembered >= 0 && remembered < all && entered(remembered) <= 0.0) return false;
+    std::array<int, 2> best { -1, -1 };
+    std::array<double, 2> least { overlap_detail::infinite, overlap_detail::infinite };
+    for (int face = 0; face < all; ++face) {
+        const int own = face < first ? 0 : 1;
+        const double depth = entered(face);
+        if (depth < least[own]) {
+            least[own] = depth;
+            best[own] = own == 0 ? face : face - first;
+        }
+    }
+    const int own = least[0] <= least[1] ? 0 : 1;
+    if (best[0] < 0 || best[1] < 0) return false;  // a body without planes or points
+    if (separating) *separating = own == 0 ? best[0] : first + best[1];
+    if (!(least[own] > 0.0)) return false;
+    const Vector normal = planes[own][best[own]].normal;
+    const auto [second, third] = Room::tangents(normal);
+    box.axes = { normal, second, third };
+    std::array<double, 6> bounds { -overlap_detail::infinite, overlap_detail::infinite,
+        -overlap_detail::infinite, overlap_detail::infinite, -overlap_detail::infinite,
+        overlap_detail::infinite };
+    extend(0, best[1], bounds);
+    extend(1, best[0], bounds);
+    box.size = 0.0;
+    for (int k = 0; k < 2; ++k)
+        for (std::size_t i = 0; i < x[k].size(); ++i)
+            box.size = std::max({ box.size, std::abs(x[k][i]), std::abs(y[k][i]), std::abs(z[k][i]) });
+    box.tie = overlap_detail::round_off * box.size;
+    std::array<double, 3> middle {}, half {};
+    for (int k = 0; k < 3; ++k) {
+        middle[k] = 0.5 * (bounds[2 * k] + bounds[2 * k + 1]);
+        half[k] = 0.5 * (bounds[2 * k + 1] - bounds[2 * k]);
+        if (half[k] < -10.0 * box.tie) return false;
+        // the overlap must lie within: conditions that hold in the box are left out
+        half[k] = 1.001 * std::max(half[k], 0.0) + 10.0 * box.tie;
+    }
+    box.centre = middle[0] * box.axes[0] + middle[1] * box.axes[1] + middle[2] * box.axes[2];
+    box.half = { half[0], half[1], half[2] };
+    box.reach = norm(box.half);
+    return true;
+}
+
+/// Planes that may bound the overlap or be nearest to a point of it, those that cut most first.
+template <class Room> bool PairOverlap<Room>::find_active()
+{
+    using overlap_detail::componentwise_abs;
+    active.clear();
+    box.largest_depth = overlap_detail::infinite;
+    int face = 0;
+    for (const std::vector<ContactPlane>& of_body : planes) {
+        for (const ContactPlane& p : of_body) {
+            const Vector n { dot(p.normal, box.axes[0]), dot(p.normal, box.axes[1]),
+                dot(p.normal, box.axes[2]) };
+            const double depth = p.offset - dot(p.normal, box.centre);
+            const double reach = dot(componentwise_abs(n), box.half);
+            if (depth + reach < 0.0) return false;
+            if (p.counted) box.largest_depth = std::min(box.largest_depth, depth + reach);
+            if (p.counted || depth - reach < 0.0)
+                active.push_back({ n, depth, depth - reach, depth + reach, face, p.counted });
+            ++face;
+        }
+    }
+    // without a counted plane there is no depth
+    if (box.largest_depth == overlap_detail::infinite) return false;
+    const auto drop_far = [this] {
+        const double depth = box.largest_depth;
+        active.erase(std::remove_if(active.begin(), active.end(),
+                         [depth](const Active& p) { return p.counted && p.lowest > depth; }),
+            active.end());
+    };
+    drop_far();
+    // where two planes are nearest, the overlap is at most half as deep as both together
+    for (std::size_t i = 0; i < active.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            const Active &one = active[i], &two = active[k];
+            const double twice = one.depth + two.depth;
+            if (!one.counted || !two.counted || twice >= 2.0 * box.largest_depth) continue;
+            const double both =
+                twice + dot(componentwise_abs(one.normal + two.normal), box.half);
+            if (both < 0.0) return false;
+            box.largest_depth = std::min(box.largest_depth, 0.5 * both);
+        }
+    }
+    drop_far();
+    // Planes that are nowhere nearest in the box. Of equal planes the first counts.
+    is_hidden.assign(active.size(), 0);
+    for (std::size_t i = 0; i < active.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            const Active &one = active[i], &two = active[k];
+            if (one.counted != two.counted) continue;
+            const Vector apart = one.normal - two.normal;
+            const double farther = one.depth - two.depth;
+            if (dot(apart, apart) <= overlap_detail::round_off * overlap_detail::round_off
+                && std::abs(farther) <= box.tie) {
+                is_hidden[i] = 1;
+                continue;
+            }
+            const double reach = dot(componentwise_abs(apart), box.half);
+            if (farther >= reach) is_hidden[i] = 1;
+            else if (-farther >= reach) is_hidden[k] = 1;
+        }
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < active.size(); ++i)
+        if (!is_hidden[i]) active[kept++] = active[i];
+    active.resize(kept);
+    for (std::size_t i = 1; i < kept; ++i) {
+        const Active one = active[i];
+        std::size_t k = i;
+        for (; k > 0 && active[k - 1].highest > one.highest; --k)
+            active[k] = active[k - 1];
+        active[k] = one;
+    }
+    return true;
+}
+
+/// Add the cone from the plane of i over the present piece.
+/// @param height  of the cone, positive if the piece looks away from its apex
+template <class Room>
+void PairOverlap<Room>::add_cone(
+    std::size_t i, const Frame& frame, double height, Overlap& sum)
+{
+    constexpr double share = Room::dimension / (Room::dimension + 1.0);
+    const Active& p = active[i];
+    const std::array<double, 2> at = piece.centre();
+    const Vector centre = frame.origin + at[0] * frame.first + at[1] * frame.second;
+    const Vector apex = p.depth * p.normal;
+    const double volume = piece.size() * height / Room::dimension;
+    sums[i].volume += volume;
+    sums[i].moment = sums[i].moment + volume * (apex + share * (centre - apex));
+    sum.energy += 2.0 * volume * share * (p.depth - dot(p.normal, centre));
+}
+
+/// Add the ridge on which two counted planes are equally near, to both.
+template <class Room>
+void PairOverlap<Room>::add_ridge(std::size_t i, std::size_t j, Overlap& sum)
+{
+    using overlap_detail::componentwise_abs;
+    const Active &p = active[i], &q = active[j];
+    const Vector apart = p.normal - q.normal, both = p.normal + q.normal;
+    const double difference = p.depth - q.depth, twice = p.depth + q.depth;
+    if (std::abs(difference) > dot(componentwise_abs(apart), box.half)) return;
+    const double reach = dot(componentwise_abs(both), box.half);
+    if (twice + reach < 0.0 || twice - reach > 2.0 * box.largest_depth) return;
+    const double length = norm(apart);
+    if (length <= overlap_detail::round_off) return;
+    const Vector normal = (1.0 / length) * apart;
+    const auto [first, second] = Room::tangents(normal);
+    const Frame frame { (difference / length) * normal, first, second };
+    const double a = p.depth - dot(p.normal, frame.origin);
+    const double b = dot(p.normal, first), c = dot(p.normal, second);
+    piece.start(box.reach);
+    if (!piece.cut(a, b, c)) return;
+    for (std::size_t k = 0; k < active.size(); ++k) {
+        if (k == i || k == j) continue;
+        const Active& other = active[k];
+        const double one = other.depth - dot(other.normal, frame.origin);
+        const double two = dot(other.normal, first), three = dot(other.normal, second);
+        if (other.counted) {
+            if (!piece.cut(one - a, two - b, three - c)) return;
+        } else {
+            // a wall in the ridge bounds the part before it
+            const bool tied = std::abs(one) <= box.tie && std::abs(two) <= overlap_detail::round_off
+                && std::abs(three) <= overlap_detail::round_off;
+            if (tied || !piece.cut(one, two, three)) return;
+        }
+    }
+    sum.depth = std::max(sum.depth, piece.largest(a, b, c));
+    const double cosine = dot(p.normal, q.normal);
+    add_cone(i, frame, (q.depth - p.depth * cosine) / length, sum);
+    add_cone(j, frame, (p.depth - q.depth * cosine) / length, sum);
+    sums[i].area += 0.5 * length * piece.size();
+    sums[j].area += 0.5 * length * piece.size();
+}
+
+/// Add the part of a wall to which a counted plane is nearest, to both.
+template <class Room> void PairOverlap<Room>::add_wall(std::size_t w, std::size_t i, Overlap& sum)
+{
+    const Active &wall = active[w], &p = active[i];
+    const auto [first, second] = Room::tangents(wall.normal);
+    const Frame frame { wall.depth * wall.normal, first, second };
+    const double a = p.depth - dot(p.normal, frame.origin);
+    const double b = dot(p.normal, first), c = dot(p.normal, second);
+    // Conditions that are 0 on the whole wall are taken where it is moved inwards by nothing.
+    const auto keeps = [&](double one, double two, double three, double inwards) {
+        if (std::abs(one) <= box.tie && std::abs(two) <= overlap_detail::round_off
+            && std::abs(three) <= overlap_detail::round_off) {
+            return inwards > 0.0;
+        }
+        return piece.cut(one, two, three);
+    };
+    piece.start(box.reach);
+    if (!keeps(a, b, c, dot(p.normal, wall.normal))) return;
+    for (std::size_t k = 0; k < active.size(); ++k) {
+        if (k == i || k == w) continue;
+        const Active& other = active[k];
+        const double one = other.depth - dot(other.normal, frame.origin);
+        const double two = dot(other.normal, first), three = dot(other.normal, second);
+        if (other.counted) {
+            const double inwards = dot(other.normal - p.normal, wall.normal);
+            if (!keeps(one - a, two - b, three - c, inwards)) return;
+        } else if (!keeps(one, two, three, dot(other.normal, wall.normal))) {
+            return;
+        }
+    }
+    sum.depth = std::max(sum.depth, piece.largest(a, b, c));
+    const double cosine = dot(p.normal, wall.normal), size = piece.size();
+    add_cone(i, frame, wall.depth - p.depth * cosine, sum);
+    sums[i].area -= cosine * size;
+    const std::array<double, 2> at = piece.centre();
+    const std::array<double, 3> m = piece.moments();
+    const Vector centre = frame.origin + at[0] * first + at[1] * second;
+    const double pressed = size * (a - b * at[0] - c * at[1]);
+    sums[w].volume += pressed;
+    sums[w].moment = sums[w].moment + pressed * centre - (b * m[0] + c * m[1]) * first
+        - (b * m[1] + c * m[2]) * second;
+}
+
+/// Forces on faces, and the pressed area.
+template <class Room>
+void PairOverlap<Room>::finish(const ContactBody& a, const ContactBody& b, Overlap& sum)
+{
+    std::array<double, 2> area {};
+    for (std::size_t i = 0; i < active.size(); ++i) {
+        if (sums[i].volume == 0.0) continue;
+        const int face = active[i].face, own = face < a.faces ? 0 : 1;
+        const ContactPlane& p = own == 0 ? a.planes[face] : b.planes[face - a.faces];
+        if (p.counted) area[own] += sums[i].area;
+        Vector at = (1.0 / sums[i].volume) * sums[i].moment;
+        at = at + (active[i].depth - dot(active[i].normal, at)) * active[i].normal;
+        const Vector point = box.centre - shift[own] + at.x * box.axes[0] + at.y * box.axes[1]
+            + at.z * box.axes[2];
+        on_faces.push_back({ face, (-2.0 * sums[i].volume) * p.normal, point });
+    }
+    sum.area = std::min(area[0], area[1]);
+    std::sort(on_faces.begin(), on_faces.end(),
+        [](const FaceForce& one, const FaceForce& two) { return one.face < two.face; });
+}
+
+template <class Room>
+Overlap PairOverlap<Room>::measure(
+    const ContactBody& a, const ContactBody& b, double clearance, int* separating)
+{
+    Overlap sum;
+    on_faces.clear();
+    const Vector half = 0.5 * (b.centre - a.centre);
+    load(a, -half, clearance, 0);
+    load(b, half, clearance, 1);
+    if (!find_box(separating) || !find_active()) return sum;
+    sums.assign(active.size(), Sums {});
+    piece.reserve(static_cast<int>(active.size()));
+    for (std::size_t i = 0; i < active.size(); ++i) {
+        for (std::size_t k = 0; k < active.size(); ++k) {
+            if (!active[k].counted) continue;
+            if (!active[i].counted) add_wall(i, k, sum);
+            else if (i < k) add_ridge(i, k, sum);
+        }
+    }
+    finish(a, b, sum);
+    return sum;
+}
+
+template <class Room>
+double PairOverlap<Room>::birth_clearance(const ContactBody& a, const ContactBody& b)
+{
+    double clearance = 0.0, margin = overlap_detail::birth_margin;
+    // a sharp body may keep more than the margin for round-off
+    for (Overlap found = measure(a, b, 0.0); found.energy != 0.0 || !on_faces.empty();
+         found = measure(a, b, clearance)) {
+        clearance += found.depth + margin * box.size;
+        margin *= 4.0;
+    }
+    return clearance;
+}
+
+template <class Room>
+double PairOverlap<Room>::clearance_for(
+    const ContactBody& a, const ContactBody& b, double energy)
+{
+    if (!(energy > 0.0)) return birth_clearance(a, b);
+    Overlap found = measure(a, b, 0.0);
+    double low = 0.0, high = found.depth;
+    for (double step = std::max(found.depth, overlap_detail::round_off * box.size);
+         found.energy < energy; step *= 2.0) {
+        high = low;
+        low -= step;
+        found = measure(a, b, low);
+    }
+    // Newton's rule for the root of the energy, which is nearly linear, within the bounds
+    double at = low;
+    const double root = std::sqrt(energy);
+    for (int tries = 0; tries < 200 && found.energy != energy; ++tries) {
+        if (found.energy > energy) low = at;
+        else high = at;
+        double volume = 0.0;
+        for (const FaceForce& on : on_faces) {
+            const bool of_a = on.face < a.faces;
+            const ContactPlane& p = of_a ? a.planes[on.face] : b.planes[on.face - a.faces];
+            if (p.counted) volume += 0.5 * norm(on.force);
+        }
+        const double fine = std::sqrt(found.energy);
+        double next = at + (fine - root) * fine / volume;
+        if (!(next > low && next < high)) next = 0.5 * (low + high);
+        if (std::abs(next - at) <= 1e-16 * box.size || next == low || next == high) break;
+        at = next;
+        found = measure(a, b, at);
+    }
+    return at;
+}
+
+}  // namespace flexpm
