@@ -62,8 +62,7 @@ template <class Room> struct Planes {
     {
         for (std::size_t f = 0; f < body.faces.size(); ++f) {
             const std::vector<Vector> corners = body.corners(static_cast<int>(f));
-            planes.push_back(
-                Room::plane_of(corners.data(), static_cast<int>(corners.size())));
+            planes.push_back(Room::plane_of(corners.data(), static_cast<int>(corners.size())));
             planes.back().counted = body.counted[f];
         }
         view = { body.centre, planes.data(), static_cast<int>(planes.size()), body.nodes.data(),
@@ -129,9 +128,7 @@ Body<Room> body_of(const std::vector<Vector>& normals, const std::vector<double>
             body.faces.erase(body.faces.begin() + f);
             continue;
         }
-        const Vector first = Room::dimension == 3
-            ? normals[f]
-            : Vector { 0.0, 0.0, 1.0 };
+        const Vector first = Room::dimension == 3 ? normals[f] : Vector { 0.0, 0.0, 1.0 };
         if (Room::dimension == 2) {
             if (cross(normals[f], body.nodes[face[1]] - body.nodes[face[0]]).z < 0.0)
                 std::swap(face[0], face[1]);
@@ -142,7 +139,8 @@ Body<Room> body_of(const std::vector<Vector>& normals, const std::vector<double>
             middle = middle + (1.0 / static_cast<double>(face.size())) * body.nodes[node];
         const auto [along, across] = InSpace::tangents(first);
         const auto angle = [&, one = along, two = across](int node) {
-            return std::atan2(dot(body.nodes[node] - middle, two), dot(body.nodes[node] - middle, one));
+            return std::atan2(
+                dot(body.nodes[node] - middle, two), dot(body.nodes[node] - middle, one));
         };
         std::sort(face.begin(), face.end(), [&](int i, int j) { return angle(i) < angle(j); });
     }
@@ -173,8 +171,8 @@ template <class Room> Body<Room> drawn_body(Random& random)
     // the box keeps it bounded
     for (int k = 0; k < 2 * Room::dimension; ++k) {
         const double sign = k % 2 == 0 ? 1.0 : -1.0;
-        normals.push_back({ k / 2 == 0 ? sign : 0.0, k / 2 == 1 ? sign : 0.0,
-            k / 2 == 2 ? sign : 0.0 });
+        normals.push_back(
+            { k / 2 == 0 ? sign : 0.0, k / 2 == 1 ? sign : 0.0, k / 2 == 2 ? sign : 0.0 });
     }
     for (int tries = 0; tries < 400 && static_cast<int>(normals.size()) < faces; ++tries) {
         const Vector n = direction<Room>(random);
@@ -208,8 +206,9 @@ void set_depth(PairOverlap<Room>& pair, const Body<Room>& a, Body<Room>& b, doub
 template <class Room> struct DrawnPair {
     Body<Room> a, b;
 
-    DrawnPair(PairOverlap<Room>& pair, Random& random, double depth)
-        : a(drawn_body<Room>(random)), b(drawn_body<Room>(random))
+    DrawnPair(PairOverlap<Room>& pair, Random& random, double depth) :
+        a(drawn_body<Room>(random)),
+        b(drawn_body<Room>(random))
     {
         a.centre = { 3.0, -2.0, Room::dimension == 3 ? 5.0 : 0.0 };
         b.centre = a.centre + direction<Room>(random);
@@ -239,8 +238,7 @@ std::array<std::vector<Vector>, 2> nodal_forces(
 }
 
 /// Sum of the forces of the last pair on one body (0: first, 1: second), over K_n.
-template <class Room>
-Vector force_on(const PairOverlap<Room>& pair, const Body<Room>& a, int body)
+template <class Room> Vector force_on(const PairOverlap<Room>& pair, const Body<Room>& a, int body)
 {
     Vector sum;
     for (const FaceForce& on : pair.forces())

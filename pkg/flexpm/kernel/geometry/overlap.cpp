@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Segments, and edges with their two corners.
+#include <flexpm/kernel/geometry/overlap.hpp>
+
 #include <flexpm/kernel/geometry/overlap_pair.hpp>
 
 namespace flexpm {
 
-void InPlane::Piece::start(double reach)
+void InPlane::Piece::start(double reach, double)
 {
     from = -reach;
     to = reach;
@@ -12,9 +14,12 @@ void InPlane::Piece::start(double reach)
 
 bool InPlane::Piece::cut(double a, double b, double)
 {
-    if (b > 0.0) to = std::min(to, a / b);
-    else if (b < 0.0) from = std::max(from, a / b);
-    else if (a < 0.0) return false;
+    if (b > 0.0)
+        to = std::min(to, a / b);
+    else if (b < 0.0)
+        from = std::max(from, a / b);
+    else if (a < 0.0)
+        return false;
     return from < to;
 }
 

@@ -64,7 +64,7 @@ struct InPlane {
     class Piece {
     public:
         void reserve(int) { }
-        void start(double reach);
+        void start(double reach, double);
         /// Keep the part with a - b u >= 0. Return false if nothing is left.
         bool cut(double a, double b, double);
         /// Largest value of a - b u.
@@ -117,6 +117,10 @@ public:
     /// bit; 0 for bodies that do not overlap.
     double birth_clearance(const ContactBody& a, const ContactBody& b);
 
+    /// Corners of the body behind some planes, which contain it as ContactBody::points do: for
+    /// bent faces, whose nodes are no corners of it. Positions are relative to the body's centre.
+    void find_corners(const ContactPlane* planes, int faces, std::vector<Vector>& corners);
+
 private:
     /// Plane in the frame of the box round the overlap.
     struct Active {
@@ -138,30 +142,35 @@ private:
         Vector half;              ///< lengths
         double largest_depth;     ///< no point of the overlap is deeper
         double reach, size, tie;  ///< half diagonal; size of the pair; round-off
-    };
-    /// A piece of the plane through `origin`.
-    struct Frame {
-        Vector origin, first, second;
+        double slack;             ///< least distance of the overlap from the rim
     };
 
     void load(const ContactBody& body, Vector shift, double clearance, int which);
     bool find_box(int* separating);
+    bool find_prism();
+    bool is_in_prism(Vector at) const;
     bool find_active();
+    void drop_hidden();
     void add_ridge(std::size_t i, std::size_t j, Overlap& sum);
     void add_wall(std::size_t w, std::size_t i, Overlap& sum);
     void finish(const ContactBody& a, const ContactBody& b, Overlap& sum);
-    void add_cone(std::size_t i, const Frame& frame, double height, Overlap& sum);
-    void own_points(int which);
+    void add_cone(std::size_t i, const Active& q, double factor, Vector centre, Overlap& sum);
+    std::array<double, 2> range(Vector normal) const;
     double lowest_over(int plane, int which) const;
     void extend(int which, int plane, std::array<double, 6>& bounds);
 
     std::array<std::vector<ContactPlane>, 2> planes;  ///< in the frame of the pair, moved inwards
     std::array<std::vector<double>, 2> x, y, z;       ///< of points
     std::array<Vector, 2> shift;                      ///< centres from the middle of the pair
+    std::vector<Vector> own_corners;
     Box box {};
     std::vector<Active> active;
+    std::vector<std::array<double, 2>> prism;  ///< corners of its section across the first axis
+    std::vector<std::array<double, 3>> sides;  ///< conditions of the prism
     std::vector<char> is_hidden;
     std::vector<Sums> sums;
+    Vector reference;  ///< point of the overlap, from which moments are taken
+    bool has_reference = false, is_astray = false;
     std::vector<std::array<double, 4>> inside, outside;
     std::vector<FaceForce> on_faces;
     typename Room::Piece piece;

@@ -24,11 +24,6 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Planes are equal, and a clearance leaves no overlap, up to this part of the size of a pair.
 constexpr double round_off = 1e-13, birth_margin = 1e-12;
 
-inline Vector componentwise_abs(Vector a)
-{
-    return { std::abs(a.x), std::abs(a.y), std::abs(a.z) };
-}
-
 }  // namespace overlap_detail
 
 /// Planes and points of a body in the frame of the pair.
@@ -36,44 +31,42 @@ template <class Room>
 void PairOverlap<Room>::load(const ContactBody& body, Vector from, double clearance, int which)
 {
     shift[which] = from;
-    planes[which].resize(body.faces);
-    for (int f = 0; f < body.faces; ++f) {
-        ContactPlane p = body.planes[f];
-        p.offset += dot(p.normal, from) - (p.counted ? clearance : 0.0);
-        planes[which][f] = p;
-    }
+    planes[which].assign(body.planes, body.planes + body.faces);
+    for (ContactPlane& p : planes[which])
+        p.offset -= p.counted ? clearance : 0.0;
+    const Vector* points = body.points;
+    int count = body.count;
     // planes that move outwards leave the given points behind
-    if (body.count == 0 || clearance < 0.0) {
-        own_points(which);
-        return;
+    if (count == 0 || clearance < 0.0) {
+        find_corners(planes[which].data(), body.faces, own_corners);
+        points = own_corners.data();
+        count = static_cast<int>(own_corners.size());
     }
-    x[which].resize(body.count);
-    y[which].resize(body.count);
-    z[which].resize(body.count);
-    for (int i = 0; i < body.count; ++i) {
-        x[which][i] = body.points[i].x + from.x;
-        y[which][i] = body.points[i].y + from.y;
-        z[which][i] = body.points[i].z + from.z;
+    for (ContactPlane& p : planes[which])
+        p.offset += dot(p.normal, from);
+    x[which].resize(count);
+    y[which].resize(count);
+    z[which].resize(count);
+    for (int i = 0; i < count; ++i) {
+        x[which][i] = points[i].x + from.x;
+        y[which][i] = points[i].y + from.y;
+        z[which][i] = points[i].z + from.z;
     }
 }
 
-/// Corners of a body from its planes: each face is cut out of its plane by all others.
-template <class Room> void PairOverlap<Room>::own_points(int which)
+template <class Room>
+void PairOverlap<Room>::find_corners(const ContactPlane* p, int faces, std::vector<Vector>& corners)
 {
-    const std::vector<ContactPlane>& p = planes[which];
-    const int faces = static_cast<int>(p.size());
-    const Vector from = shift[which];
     double size = 0.0;
-    for (const ContactPlane& plane : p)
-        size = std::max(size, std::abs(plane.offset - dot(plane.normal, from)));
-    x[which].clear();
-    y[which].clear();
-    z[which].clear();
+    for (int f = 0; f < faces; ++f)
+        size = std::max(size, std::abs(p[f].offset));
+    corners.clear();
     piece.reserve(faces);
     for (int f = 0; f < faces; ++f) {
+        // each face is cut out of its plane by all others; a body is not longer than that
         const auto [first, second] = Room::tangents(p[f].normal);
-        const Vector origin = from + (p[f].offset - dot(p[f].normal, from)) * p[f].normal;
-        piece.start(100.0 * size);  // a body is not that long
+        const Vector origin = p[f].offset * p[f].normal;
+        piece.start(100.0 * size, 100.0 * size);
         bool left = true;
         for (int k = 0; k < faces && left; ++k) {
             if (k == f) continue;
@@ -84,14 +77,11 @@ template <class Room> void PairOverlap<Room>::own_points(int which)
             const std::array<double, 2> at = piece.corner(i);
             const Vector corner = origin + at[0] * first + at[1] * second;
             // a corner belongs to the first of its planes
-            bool known = false;
-            for (int k = 0; k < f && !known; ++k)
-                known = std::abs(p[k].offset - dot(p[k].normal, corner))
+            const bool is_known = std::any_of(p, p + f, [&](const ContactPlane& of) {
+                return std::abs(of.offset - dot(of.normal, corner))
                     <= overlap_detail::round_off * size;
-            if (known) continue;
-            x[which].push_back(corner.x);
-            y[which].push_back(corner.y);
-            z[which].push_back(corner.z);
+            });
+            if (!is_known) corners.push_back(corner);
         }
     }
 }
@@ -186,26 +176,74 @@ template <class Room> bool PairOverlap<Room>::find_box(int* separating)
     box.size = 0.0;
     for (int k = 0; k < 2; ++k)
         for (std::size_t i = 0; i < x[k].size(); ++i)
-            box.size = std::max({ box.size, std::abs(x[k][i]), std::abs(y[k][i]), std::abs(z[k][i]) });
+            box.size =
+                std::max({ box.size, std::abs(x[k][i]), std::abs(y[k][i]), std::abs(z[k][i]) });
     box.tie = overlap_detail::round_off * box.size;
     std::array<double, 3> middle {}, half {};
     for (int k = 0; k < 3; ++k) {
         middle[k] = 0.5 * (bounds[2 * k] + bounds[2 * k + 1]);
         half[k] = 0.5 * (bounds[2 * k + 1] - bounds[2 * k]);
         if (half[k] < -10.0 * box.tie) return false;
-        // the overlap must lie within: conditions that hold in the box are left out
-        half[k] = 1.001 * std::max(half[k], 0.0) + 10.0 * box.tie;
+        half[k] = std::max(half[k], 0.0);
     }
+    // Conditions that hold throughout the box are left out. What the others bound is the overlap,
+    // if a part of it is within, as all is convex, and the overlap has some distance from the rim.
+    box.slack = 1e-3 * half[0] + 10.0 * box.tie;
+    for (double& length : half)
+        length += box.slack;
     box.centre = middle[0] * box.axes[0] + middle[1] * box.axes[1] + middle[2] * box.axes[2];
     box.half = { half[0], half[1], half[2] };
     box.reach = norm(box.half);
     return true;
 }
 
+/// Smallest and largest normal . x over the prism.
+template <class Room> std::array<double, 2> PairOverlap<Room>::range(Vector normal) const
+{
+    double least = overlap_detail::infinite, most = -overlap_detail::infinite;
+    for (const std::array<double, 2>& at : prism) {
+        const double along = normal.y * at[0] + normal.z * at[1];
+        least = std::min(least, along);
+        most = std::max(most, along);
+    }
+    const double reach = std::abs(normal.x) * box.half.x;
+    return { least - reach, most + reach };
+}
+
+/// Prism in the box that holds the overlap: its section is cut by all planes, as far out as they
+/// are anywhere between its ends. False if it is empty.
+template <class Room> bool PairOverlap<Room>::find_prism()
+{
+    piece.reserve(static_cast<int>(active.size()));
+    piece.start(box.half.y, box.half.z);
+    sides.clear();
+    for (const Active& p : active) {
+        const double reach = std::abs(p.normal.x) * box.half.x + box.slack;
+        sides.push_back({ p.depth + reach, p.normal.y, p.normal.z });
+        if (!piece.cut(p.depth + reach, p.normal.y, p.normal.z)) return false;
+    }
+    prism.clear();
+    for (int i = 0; i < piece.corners(); ++i)
+        prism.push_back(piece.corner(i));
+    return true;
+}
+
+/// True if a point is in the prism, with half of the slack.
+template <class Room> bool PairOverlap<Room>::is_in_prism(Vector at) const
+{
+    const double rim = 0.5 * box.slack;
+    if (std::abs(at.x) > box.half.x - rim || std::abs(at.y) > box.half.y - rim
+        || std::abs(at.z) > box.half.z - rim) {
+        return false;
+    }
+    return std::all_of(sides.begin(), sides.end(), [at, rim](const std::array<double, 3>& side) {
+        return side[0] - side[1] * at.y - side[2] * at.z >= rim;
+    });
+}
+
 /// Planes that may bound the overlap or be nearest to a point of it, those that cut most first.
 template <class Room> bool PairOverlap<Room>::find_active()
 {
-    using overlap_detail::componentwise_abs;
     active.clear();
     box.largest_depth = overlap_detail::infinite;
     int face = 0;
@@ -214,7 +252,8 @@ template <class Room> bool PairOverlap<Room>::find_active()
             const Vector n { dot(p.normal, box.axes[0]), dot(p.normal, box.axes[1]),
                 dot(p.normal, box.axes[2]) };
             const double depth = p.offset - dot(p.normal, box.centre);
-            const double reach = dot(componentwise_abs(n), box.half);
+            const double reach = std::abs(n.x) * box.half.x + std::abs(n.y) * box.half.y
+                + std::abs(n.z) * box.half.z;
             if (depth + reach < 0.0) return false;
             if (p.counted) box.largest_depth = std::min(box.largest_depth, depth + reach);
             if (p.counted || depth - reach < 0.0)
@@ -227,9 +266,18 @@ template <class Room> bool PairOverlap<Room>::find_active()
     const auto drop_far = [this] {
         const double depth = box.largest_depth;
         active.erase(std::remove_if(active.begin(), active.end(),
-                         [depth](const Active& p) { return p.counted && p.lowest > depth; }),
+                         [depth](const Active& p) { return p.lowest > (p.counted ? depth : 0.0); }),
             active.end());
     };
+    drop_far();
+    if (!find_prism()) return false;
+    for (Active& p : active) {
+        const auto [least, most] = range(p.normal);
+        p.lowest = p.depth - most;
+        p.highest = p.depth - least;
+        if (p.highest < 0.0) return false;
+        if (p.counted) box.largest_depth = std::min(box.largest_depth, p.highest);
+    }
     drop_far();
     // where two planes are nearest, the overlap is at most half as deep as both together
     for (std::size_t i = 0; i < active.size(); ++i) {
@@ -237,14 +285,27 @@ template <class Room> bool PairOverlap<Room>::find_active()
             const Active &one = active[i], &two = active[k];
             const double twice = one.depth + two.depth;
             if (!one.counted || !two.counted || twice >= 2.0 * box.largest_depth) continue;
-            const double both =
-                twice + dot(componentwise_abs(one.normal + two.normal), box.half);
+            const double both = twice - range(one.normal + two.normal)[0];
             if (both < 0.0) return false;
             box.largest_depth = std::min(box.largest_depth, 0.5 * both);
         }
     }
     drop_far();
-    // Planes that are nowhere nearest in the box. Of equal planes the first counts.
+    drop_hidden();
+    // few, and nearly in order
+    for (std::size_t i = 1; i < active.size(); ++i) {
+        const Active one = active[i];
+        std::size_t k = i;
+        for (; k > 0 && active[k - 1].highest > one.highest; --k)
+            active[k] = active[k - 1];
+        active[k] = one;
+    }
+    return true;
+}
+
+/// Drop planes that are nowhere nearest in the prism. Of equal planes the first counts.
+template <class Room> void PairOverlap<Room>::drop_hidden()
+{
     is_hidden.assign(active.size(), 0);
     for (std::size_t i = 0; i < active.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
@@ -257,66 +318,66 @@ template <class Room> bool PairOverlap<Room>::find_active()
                 is_hidden[i] = 1;
                 continue;
             }
-            const double reach = dot(componentwise_abs(apart), box.half);
-            if (farther >= reach) is_hidden[i] = 1;
-            else if (-farther >= reach) is_hidden[k] = 1;
+            const auto [least, most] = range(apart);
+            if (farther >= most)
+                is_hidden[i] = 1;
+            else if (farther <= least)
+                is_hidden[k] = 1;
         }
     }
     std::size_t kept = 0;
     for (std::size_t i = 0; i < active.size(); ++i)
         if (!is_hidden[i]) active[kept++] = active[i];
     active.resize(kept);
-    for (std::size_t i = 1; i < kept; ++i) {
-        const Active one = active[i];
-        std::size_t k = i;
-        for (; k > 0 && active[k - 1].highest > one.highest; --k)
-            active[k] = active[k - 1];
-        active[k] = one;
-    }
-    return true;
 }
 
-/// Add the cone from the plane of i over the present piece.
-/// @param height  of the cone, positive if the piece looks away from its apex
+/// Add the cone from the plane of i over the present piece, which lies in a plane q or in the ridge
+/// between i and q.
+/// @param factor  of the depth of the apex below q: the height of the cone
 template <class Room>
 void PairOverlap<Room>::add_cone(
-    std::size_t i, const Frame& frame, double height, Overlap& sum)
+    std::size_t i, const Active& q, double factor, Vector centre, Overlap& sum)
 {
     constexpr double share = Room::dimension / (Room::dimension + 1.0);
     const Active& p = active[i];
-    const std::array<double, 2> at = piece.centre();
-    const Vector centre = frame.origin + at[0] * frame.first + at[1] * frame.second;
-    const Vector apex = p.depth * p.normal;
+    if (!has_reference) {
+        // cones from afar would lose digits of a small overlap
+        reference = centre;
+        has_reference = true;
+        is_astray = !is_in_prism(centre);
+    }
+    const Vector apex = reference + (p.depth - dot(p.normal, reference)) * p.normal;
+    const double height = factor * (q.depth - dot(q.normal, apex));
     const double volume = piece.size() * height / Room::dimension;
+    const Vector middle = (1.0 - share) * (apex - reference) + share * (centre - reference);
     sums[i].volume += volume;
-    sums[i].moment = sums[i].moment + volume * (apex + share * (centre - apex));
+    sums[i].moment = sums[i].moment + volume * middle;
     sum.energy += 2.0 * volume * share * (p.depth - dot(p.normal, centre));
 }
 
 /// Add the ridge on which two counted planes are equally near, to both.
-template <class Room>
-void PairOverlap<Room>::add_ridge(std::size_t i, std::size_t j, Overlap& sum)
+template <class Room> void PairOverlap<Room>::add_ridge(std::size_t i, std::size_t j, Overlap& sum)
 {
-    using overlap_detail::componentwise_abs;
     const Active &p = active[i], &q = active[j];
     const Vector apart = p.normal - q.normal, both = p.normal + q.normal;
     const double difference = p.depth - q.depth, twice = p.depth + q.depth;
-    if (std::abs(difference) > dot(componentwise_abs(apart), box.half)) return;
-    const double reach = dot(componentwise_abs(both), box.half);
-    if (twice + reach < 0.0 || twice - reach > 2.0 * box.largest_depth) return;
+    const std::array<double, 2> at = range(apart);
+    if (difference < at[0] || difference > at[1]) return;
+    const std::array<double, 2> sums_at = range(both);
+    if (twice < sums_at[0] || twice - sums_at[1] > 2.0 * box.largest_depth) return;
     const double length = norm(apart);
     if (length <= overlap_detail::round_off) return;
     const Vector normal = (1.0 / length) * apart;
     const auto [first, second] = Room::tangents(normal);
-    const Frame frame { (difference / length) * normal, first, second };
-    const double a = p.depth - dot(p.normal, frame.origin);
+    const Vector origin = (difference / length) * normal;
+    const double a = p.depth - dot(p.normal, origin);
     const double b = dot(p.normal, first), c = dot(p.normal, second);
-    piece.start(box.reach);
+    piece.start(box.reach, box.reach);
     if (!piece.cut(a, b, c)) return;
     for (std::size_t k = 0; k < active.size(); ++k) {
         if (k == i || k == j) continue;
         const Active& other = active[k];
-        const double one = other.depth - dot(other.normal, frame.origin);
+        const double one = other.depth - dot(other.normal, origin);
         const double two = dot(other.normal, first), three = dot(other.normal, second);
         if (other.counted) {
             if (!piece.cut(one - a, two - b, three - c)) return;
@@ -328,9 +389,10 @@ void PairOverlap<Room>::add_ridge(std::size_t i, std::size_t j, Overlap& sum)
         }
     }
     sum.depth = std::max(sum.depth, piece.largest(a, b, c));
-    const double cosine = dot(p.normal, q.normal);
-    add_cone(i, frame, (q.depth - p.depth * cosine) / length, sum);
-    add_cone(j, frame, (p.depth - q.depth * cosine) / length, sum);
+    const std::array<double, 2> middle = piece.centre();
+    const Vector centre = origin + middle[0] * first + middle[1] * second;
+    add_cone(i, q, 1.0 / length, centre, sum);
+    add_cone(j, p, 1.0 / length, centre, sum);
     sums[i].area += 0.5 * length * piece.size();
     sums[j].area += 0.5 * length * piece.size();
 }
@@ -340,8 +402,8 @@ template <class Room> void PairOverlap<Room>::add_wall(std::size_t w, std::size_
 {
     const Active &wall = active[w], &p = active[i];
     const auto [first, second] = Room::tangents(wall.normal);
-    const Frame frame { wall.depth * wall.normal, first, second };
-    const double a = p.depth - dot(p.normal, frame.origin);
+    const Vector origin = wall.depth * wall.normal;
+    const double a = p.depth - dot(p.normal, origin);
     const double b = dot(p.normal, first), c = dot(p.normal, second);
     // Conditions that are 0 on the whole wall are taken where it is moved inwards by nothing.
     const auto keeps = [&](double one, double two, double three, double inwards) {
@@ -351,12 +413,12 @@ template <class Room> void PairOverlap<Room>::add_wall(std::size_t w, std::size_
         }
         return piece.cut(one, two, three);
     };
-    piece.start(box.reach);
+    piece.start(box.reach, box.reach);
     if (!keeps(a, b, c, dot(p.normal, wall.normal))) return;
     for (std::size_t k = 0; k < active.size(); ++k) {
         if (k == i || k == w) continue;
         const Active& other = active[k];
-        const double one = other.depth - dot(other.normal, frame.origin);
+        const double one = other.depth - dot(other.normal, origin);
         const double two = dot(other.normal, first), three = dot(other.normal, second);
         if (other.counted) {
             const double inwards = dot(other.normal - p.normal, wall.normal);
@@ -366,15 +428,14 @@ template <class Room> void PairOverlap<Room>::add_wall(std::size_t w, std::size_
         }
     }
     sum.depth = std::max(sum.depth, piece.largest(a, b, c));
-    const double cosine = dot(p.normal, wall.normal), size = piece.size();
-    add_cone(i, frame, wall.depth - p.depth * cosine, sum);
-    sums[i].area -= cosine * size;
     const std::array<double, 2> at = piece.centre();
     const std::array<double, 3> m = piece.moments();
-    const Vector centre = frame.origin + at[0] * first + at[1] * second;
-    const double pressed = size * (a - b * at[0] - c * at[1]);
+    const Vector centre = origin + at[0] * first + at[1] * second;
+    add_cone(i, wall, 1.0, centre, sum);
+    sums[i].area -= dot(p.normal, wall.normal) * piece.size();
+    const double pressed = piece.size() * (a - b * at[0] - c * at[1]);
     sums[w].volume += pressed;
-    sums[w].moment = sums[w].moment + pressed * centre - (b * m[0] + c * m[1]) * first
+    sums[w].moment = sums[w].moment + pressed * (centre - reference) - (b * m[0] + c * m[1]) * first
         - (b * m[1] + c * m[2]) * second;
 }
 
@@ -388,10 +449,10 @@ void PairOverlap<Room>::finish(const ContactBody& a, const ContactBody& b, Overl
         const int face = active[i].face, own = face < a.faces ? 0 : 1;
         const ContactPlane& p = own == 0 ? a.planes[face] : b.planes[face - a.faces];
         if (p.counted) area[own] += sums[i].area;
-        Vector at = (1.0 / sums[i].volume) * sums[i].moment;
+        Vector at = reference + (1.0 / sums[i].volume) * sums[i].moment;
         at = at + (active[i].depth - dot(active[i].normal, at)) * active[i].normal;
-        const Vector point = box.centre - shift[own] + at.x * box.axes[0] + at.y * box.axes[1]
-            + at.z * box.axes[2];
+        const Vector point =
+            box.centre - shift[own] + at.x * box.axes[0] + at.y * box.axes[1] + at.z * box.axes[2];
         on_faces.push_back({ face, (-2.0 * sums[i].volume) * p.normal, point });
     }
     sum.area = std::min(area[0], area[1]);
@@ -410,12 +471,17 @@ Overlap PairOverlap<Room>::measure(
     load(b, half, clearance, 1);
     if (!find_box(separating) || !find_active()) return sum;
     sums.assign(active.size(), Sums {});
+    has_reference = is_astray = false;
     piece.reserve(static_cast<int>(active.size()));
     for (std::size_t i = 0; i < active.size(); ++i) {
         for (std::size_t k = 0; k < active.size(); ++k) {
             if (!active[k].counted) continue;
-            if (!active[i].counted) add_wall(i, k, sum);
-            else if (i < k) add_ridge(i, k, sum);
+            if (!active[i].counted)
+                add_wall(i, k, sum);
+            else if (i < k)
+                add_ridge(i, k, sum);
+            if (is_astray)
+                return {};  // the planes that are left have something in common, but not all
         }
     }
     finish(a, b, sum);
@@ -436,8 +502,7 @@ double PairOverlap<Room>::birth_clearance(const ContactBody& a, const ContactBod
 }
 
 template <class Room>
-double PairOverlap<Room>::clearance_for(
-    const ContactBody& a, const ContactBody& b, double energy)
+double PairOverlap<Room>::clearance_for(const ContactBody& a, const ContactBody& b, double energy)
 {
     if (!(energy > 0.0)) return birth_clearance(a, b);
     Overlap found = measure(a, b, 0.0);
@@ -452,8 +517,10 @@ double PairOverlap<Room>::clearance_for(
     double at = low;
     const double root = std::sqrt(energy);
     for (int tries = 0; tries < 200 && found.energy != energy; ++tries) {
-        if (found.energy > energy) low = at;
-        else high = at;
+        if (found.energy > energy)
+            low = at;
+        else
+            high = at;
         double volume = 0.0;
         for (const FaceForce& on : on_faces) {
             const bool of_a = on.face < a.faces;

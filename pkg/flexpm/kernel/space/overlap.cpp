@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  Convex polygons, and faces with any number of corners.
-#include <flexpm/kernel/geometry/overlap_pair.hpp>
 #include <flexpm/kernel/space/overlap.hpp>
+
+#include <flexpm/kernel/geometry/overlap_pair.hpp>
 
 namespace flexpm {
 
@@ -16,13 +17,13 @@ void InSpace::Piece::reserve(int cuts)
     next = now + value.size();
 }
 
-void InSpace::Piece::start(double reach)
+void InSpace::Piece::start(double along, double across)
 {
     n = 4;
-    now[0] = { -reach, -reach };
-    now[1] = { reach, -reach };
-    now[2] = { reach, reach };
-    now[3] = { -reach, reach };
+    now[0] = { -along, -across };
+    now[1] = { along, -across };
+    now[2] = { along, across };
+    now[3] = { -along, across };
 }
 
 bool InSpace::Piece::cut(double a, double b, double c)
@@ -76,7 +77,8 @@ double InSpace::Piece::size() const
 {
     double twice = 0.0;
     for (int i = 1; i + 1 < n; ++i)
-        twice += (now[i].u - now[0].u) * (now[i + 1].v - now[0].v) - (now[i + 1].u - now[0].u) * (now[i].v - now[0].v);
+        twice += (now[i].u - now[0].u) * (now[i + 1].v - now[0].v)
+            - (now[i + 1].u - now[0].u) * (now[i].v - now[0].v);
     return 0.5 * twice;
 }
 

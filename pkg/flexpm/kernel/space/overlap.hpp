@@ -19,7 +19,7 @@ struct InSpace {
     public:
         /// Make room for a number of cuts.
         void reserve(int cuts);
-        void start(double reach);
+        void start(double along, double across);
         /// Keep the part with a - b u - c v >= 0. Return false if nothing is left.
         bool cut(double a, double b, double c);
         /// Largest value of a - b u - c v.
