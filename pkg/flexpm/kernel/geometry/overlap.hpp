@@ -17,6 +17,7 @@
 /// field that is interpolated.
 #pragma once
 
+#include <flexpm/kernel/core/array.hpp>
 #include <flexpm/kernel/core/vector.hpp>
 
 #include <array>
@@ -160,7 +161,8 @@ private:
     void extend(int which, int plane, std::array<double, 6>& bounds);
 
     std::array<std::vector<ContactPlane>, 2> planes;  ///< in the frame of the pair, moved inwards
-    std::array<std::vector<double>, 2> x, y, z;       ///< of points
+    std::array<Array<double>, 2> x, y, z;             ///< of points, the last of them repeated
+    std::array<int, 2> number {};                     ///< of points
     std::array<Vector, 2> shift;                      ///< centres from the middle of the pair
     std::vector<Vector> own_corners;
     Box box {};

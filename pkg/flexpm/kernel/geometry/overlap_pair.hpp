@@ -10,6 +10,7 @@
 /// sum of area vectors, which is 0.
 #pragma once
 
+#include <flexpm/kernel/core/simd.hpp>
 #include <flexpm/kernel/geometry/overlap.hpp>
 
 #include <algorithm>
@@ -25,6 +26,24 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double round_off = 1e-13, birth_margin = 1e-12;
 
 }  // namespace overlap_detail
+
+/// True if a plane of the first body, or of the second one after all of those, has all points of the
+/// other body well outside, so that round-off does not decide.
+inline bool is_separating(const ContactBody& a, const ContactBody& b, double clearance, int face)
+{
+    if (face < 0 || face >= a.faces + b.faces || clearance < 0.0) return false;
+    const bool of_a = face < a.faces;
+    const ContactBody &own = of_a ? a : b, &other = of_a ? b : a;
+    const ContactPlane& p = own.planes[of_a ? face : face - a.faces];
+    const double distance = dot(p.normal, other.centre - own.centre);
+    double least = overlap_detail::infinite;
+    for (int i = 0; i < other.count; ++i)
+        least = std::min(least, dot(p.normal, other.points[i]));
+    const double offset = p.offset - (p.counted ? clearance : 0.0);
+    return other.count > 0
+        && offset - (least + distance)
+        < -overlap_detail::birth_margin * (std::abs(offset) + std::abs(distance));
+}
 
 /// Planes and points of a body in the frame of the pair.
 template <class Room>
@@ -44,13 +63,16 @@ void PairOverlap<Room>::load(const ContactBody& body, Vector from, double cleara
     }
     for (ContactPlane& p : planes[which])
         p.offset += dot(p.normal, from);
-    x[which].resize(count);
-    y[which].resize(count);
-    z[which].resize(count);
-    for (int i = 0; i < count; ++i) {
-        x[which][i] = points[i].x + from.x;
-        y[which][i] = points[i].y + from.y;
-        z[which][i] = points[i].z + from.z;
+    number[which] = count;
+    const int padded = (count + 3) / 4 * 4;
+    x[which].resize(padded);
+    y[which].resize(padded);
+    z[which].resize(padded);
+    for (int i = 0; i < padded; ++i) {
+        const Vector at = points[std::min(i, count - 1)] + from;
+        x[which][i] = at.x;
+        y[which][i] = at.y;
+        z[which][i] = at.z;
     }
 }
 
@@ -92,14 +114,18 @@ template <class Room> double PairOverlap<Room>::lowest_over(int plane, int which
 {
     const Vector n = planes[1 - which][plane].normal;
     const double *px = x[which].data(), *py = y[which].data(), *pz = z[which].data();
-    const int count = static_cast<int>(x[which].size());
-    double least = overlap_detail::infinite;
-#pragma omp simd reduction(min : least)
-    for (int i = 0; i < count; ++i) {
-        const double along = n.x * px[i] + n.y * py[i] + n.z * pz[i];
-        least = along < least ? along : least;
+    const int padded = static_cast<int>(x[which].size());
+    const auto two = [](const double* at) { return *reinterpret_cast<const Two*>(at); };
+    constexpr double infinite = overlap_detail::infinite;
+    Two even { infinite, infinite }, odd { infinite, infinite };
+    for (int i = 0; i < padded; i += 4) {
+        const Two one = n.x * two(px + i) + n.y * two(py + i) + n.z * two(pz + i);
+        const Two other = n.x * two(px + i + 2) + n.y * two(py + i + 2) + n.z * two(pz + i + 2);
+        even = one < even ? one : even;
+        odd = other < odd ? other : odd;
     }
-    return least;
+    even = odd < even ? odd : even;
+    return std::min(even[0], even[1]);
 }
 
 /// Bounds, along the axes of the box, of the part of a body that lies below a plane of the other.
@@ -116,7 +142,7 @@ void PairOverlap<Room>::extend(int which, int plane, std::array<double, 6>& boun
         own = { std::min(own[0], e0), std::max(own[1], e0), std::min(own[2], e1),
             std::max(own[3], e1), std::min(own[4], e2), std::max(own[5], e2) };
     };
-    for (std::size_t i = 0; i < x[which].size(); ++i) {
+    for (int i = 0; i < number[which]; ++i) {
         const Vector at { x[which][i], y[which][i], z[which][i] };
         const std::array<double, 4> row { p.offset - dot(p.normal, at), dot(box.axes[0], at),
             dot(box.axes[1], at), dot(box.axes[2], at) };
@@ -149,8 +175,6 @@ template <class Room> bool PairOverlap<Room>::find_box(int* separating)
         const int own = face < first ? 0 : 1, plane = own == 0 ? face : face - first;
         return planes[own][plane].offset - lowest_over(plane, 1 - own);
     };
-    const int remembered = separating ? *separating : -1;
-    if (remembered >= 0 && remembered < all && entered(remembered) <= 0.0) return false;
     std::array<int, 2> best { -1, -1 };
     std::array<double, 2> least { overlap_detail::infinite, overlap_detail::infinite };
     for (int face = 0; face < all; ++face) {
@@ -175,7 +199,7 @@ template <class Room> bool PairOverlap<Room>::find_box(int* separating)
     extend(1, best[0], bounds);
     box.size = 0.0;
     for (int k = 0; k < 2; ++k)
-        for (std::size_t i = 0; i < x[k].size(); ++i)
+        for (int i = 0; i < number[k]; ++i)
             box.size =
                 std::max({ box.size, std::abs(x[k][i]), std::abs(y[k][i]), std::abs(z[k][i]) });
     box.tie = overlap_detail::round_off * box.size;
@@ -466,6 +490,7 @@ Overlap PairOverlap<Room>::measure(
 {
     Overlap sum;
     on_faces.clear();
+    if (separating && is_separating(a, b, clearance, *separating)) return sum;
     const Vector half = 0.5 * (b.centre - a.centre);
     load(a, -half, clearance, 0);
     load(b, half, clearance, 1);
