@@ -8,9 +8,9 @@
 ///     E = 2 K_n * integral over O of d(x) dV,   d(x) = depth of x below the nearest counted plane
 ///
 /// and the forces are its exact derivatives: a counted plane f is pushed inwards by 2 K_n V_f at
-/// the centroid of R_f, the part of O that is nearest to f, V_f its volume. Planes that are not
-/// counted (walls) bound O only; the pressure 2 K_n d on a wall pushes it inwards. Two flush faces
-/// thus press with K_n per area and depth; a corner or an edge begins softly, without a jump.
+/// the centroid of R_f. R_f is the part of O that is nearest to f, and V_f is its volume. Planes
+/// that are not counted (walls) only bound O; the pressure 2 K_n d on a wall pushes it inwards. Two
+/// flush faces press with K_n per area and depth. Corners and edges begin softly, without a jump.
 ///
 /// The energy is that of a pressure field 2 K_n d (Elandt et al., IROS 2019, "A pressure field
 /// model for fast, robust approximation of net contact force and moment"), with d in place of a
@@ -37,8 +37,8 @@ struct ContactBody {
     Vector centre;  ///< any point within or near the body [m]
     const ContactPlane* planes = nullptr;
     int faces = 0;
-    /// Points whose convex hull has the body in it: corners of flat faces [m]. Without points the
-    /// corners are computed from the planes, which takes longer.
+    /// Points whose convex hull contains the body, such as the corners of flat faces [m]. Without
+    /// points, find_corners() computes the corners from the planes, which takes longer.
     const Vector* points = nullptr;
     int count = 0;  ///< number of points
 };
@@ -46,15 +46,15 @@ struct ContactBody {
 /// Force of a pair on one face.
 struct FaceForce {
     int face = 0;  ///< of the first body; faces of the second body follow
-    Vector force;  ///< over K_n, along the normal of the face [m^3]
+    Vector force;  ///< over K_n, along the normal of the face [m^3; m^2 in 2D]
     Vector point;  ///< in the plane of the face, relative to the centre of its body [m]
 };
 
 /// Measures of the overlap of a pair.
 struct Overlap {
-    double energy = 0.0;  ///< over K_n [m^4]
-    double depth = 0.0;   ///< largest depth d [m]
-    double area = 0.0;    ///< pressed area: the smaller one of both bodies [m^2]
+    double energy = 0.0;  ///< over K_n [m^4; m^3 in 2D]
+    double depth = 0.0;   ///< largest depth d below the planes, less the clearance [m]
+    double area = 0.0;    ///< of counted faces in the other body: the smaller sum of both [m^2; m]
 };
 
 /// Rules of the plane: faces are edges with two corners, and the third components are 0.
@@ -87,7 +87,7 @@ struct InPlane {
         return { Vector { -normal.y, normal.x, 0.0 }, Vector { 0.0, 0.0, 1.0 } };
     }
 
-    /// Line of an edge whose body lies on the left of the way from corner 0 to corner 1.
+    /// Line of an edge. The body lies on the left, seen from corner 0 to corner 1.
     static ContactPlane plane_of(const Vector* corners, int count);
 
     /// Add the forces on the corners of an edge, which are the exact derivatives of the energy: the
@@ -95,31 +95,35 @@ struct InPlane {
     static void spread(const Vector* corners, int count, const FaceForce& on, Vector* forces);
 };
 
-/// Overlap of pairs of bodies, one pair at a time. The object has the memory that a pair needs, and
-/// allocates only while this grows; threads have one object each.
-template <class Room> class PairOverlap {
+/// Overlap of pairs of bodies, one pair at a time. The object owns the memory that a pair needs and
+/// allocates only while this memory grows. Each thread has its own object.
+template <class Geometry> class PairOverlap {
 public:
     /// Overlap of two bodies, and the forces on their faces.
     /// @param clearance   counted planes are moved inwards by it; may be negative [m]
-    /// @param separating  plane that parted both bodies last (faces of the second body follow those
-    ///                    of the first), or -1; it is looked at first, and has no influence on the
-    ///                    result
+    /// @param separating  index of the plane that separated both bodies last (faces of the second
+    ///                    body follow those of the first), or -1. It is tested first, is updated,
+    ///                    and has no influence on the result
     Overlap measure(
         const ContactBody& a, const ContactBody& b, double clearance, int* separating = nullptr);
 
     /// Forces of the last pair on its touched faces, by face.
     const std::vector<FaceForce>& forces() const { return on_faces; }
 
-    /// Clearance at which two bodies have an energy over K_n [m^4]; for an energy of 0 that of
-    /// birth_clearance(). The forces are those at this clearance.
+    /// Clearance [m] at which two bodies have a given energy over K_n, or birth_clearance() for an
+    /// energy of 0. Newton's method within bounds that bisection keeps. forces() are then the
+    /// forces at this clearance.
+    /// @param energy  [m^4; m^3 in 2D]
+    /// @throws std::invalid_argument  for an energy that is not finite, is negative, or that no
+    ///                                clearance gives
     double clearance_for(const ContactBody& a, const ContactBody& b, double energy);
 
     /// Clearance [m] at which a pair that is found overlapping has no energy and no force, to the
     /// bit; 0 for bodies that do not overlap.
     double birth_clearance(const ContactBody& a, const ContactBody& b);
 
-    /// Corners of the body behind some planes, which contain it as ContactBody::points do: for
-    /// bent faces, whose nodes are no corners of it. Positions are relative to the body's centre.
+    /// Corners of the body behind some planes. If faces are bent, their nodes are not corners of
+    /// this body. Positions are relative to its centre.
     void find_corners(const ContactPlane* planes, int faces, std::vector<Vector>& corners);
 
 private:
@@ -175,7 +179,7 @@ private:
     bool has_reference = false, is_astray = false;
     std::vector<std::array<double, 4>> inside, outside;
     std::vector<FaceForce> on_faces;
-    typename Room::Piece piece;
+    typename Geometry::Piece piece;
 };
 
 using PlaneOverlap = PairOverlap<InPlane>;

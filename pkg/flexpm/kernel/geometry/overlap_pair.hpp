@@ -10,6 +10,7 @@
 /// sum of area vectors, which is 0.
 #pragma once
 
+#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/core/simd.hpp>
 #include <flexpm/kernel/geometry/overlap.hpp>
 
@@ -46,8 +47,8 @@ inline bool is_separating(const ContactBody& a, const ContactBody& b, double cle
 }
 
 /// Planes and points of a body in the frame of the pair.
-template <class Room>
-void PairOverlap<Room>::load(const ContactBody& body, Vector from, double clearance, int which)
+template <class Geometry>
+void PairOverlap<Geometry>::load(const ContactBody& body, Vector from, double clearance, int which)
 {
     shift[which] = from;
     planes[which].assign(body.planes, body.planes + body.faces);
@@ -76,8 +77,9 @@ void PairOverlap<Room>::load(const ContactBody& body, Vector from, double cleara
     }
 }
 
-template <class Room>
-void PairOverlap<Room>::find_corners(const ContactPlane* p, int faces, std::vector<Vector>& corners)
+template <class Geometry>
+void PairOverlap<Geometry>::find_corners(
+    const ContactPlane* p, int faces, std::vector<Vector>& corners)
 {
     double size = 0.0;
     for (int f = 0; f < faces; ++f)
@@ -85,8 +87,8 @@ void PairOverlap<Room>::find_corners(const ContactPlane* p, int faces, std::vect
     corners.clear();
     piece.reserve(faces);
     for (int f = 0; f < faces; ++f) {
-        // each face is cut out of its plane by all others; a body is not longer than that
-        const auto [first, second] = Room::tangents(p[f].normal);
+        // The face is cut out of its plane by all others. No body is longer than the start.
+        const auto [first, second] = Geometry::tangents(p[f].normal);
         const Vector origin = p[f].offset * p[f].normal;
         piece.start(100.0 * size, 100.0 * size);
         bool left = true;
@@ -110,7 +112,7 @@ void PairOverlap<Room>::find_corners(const ContactPlane* p, int faces, std::vect
 
 /// Least of normal . x over the points of a body: the offset of a plane minus this is the depth to
 /// which the points enter.
-template <class Room> double PairOverlap<Room>::lowest_over(int plane, int which) const
+template <class Geometry> double PairOverlap<Geometry>::lowest_over(int plane, int which) const
 {
     const Vector n = planes[1 - which][plane].normal;
     const double *px = x[which].data(), *py = y[which].data(), *pz = z[which].data();
@@ -129,8 +131,8 @@ template <class Room> double PairOverlap<Room>::lowest_over(int plane, int which
 }
 
 /// Bounds, along the axes of the box, of the part of a body that lies below a plane of the other.
-template <class Room>
-void PairOverlap<Room>::extend(int which, int plane, std::array<double, 6>& bounds)
+template <class Geometry>
+void PairOverlap<Geometry>::extend(int which, int plane, std::array<double, 6>& bounds)
 {
     const ContactPlane& p = planes[1 - which][plane];
     inside.clear();
@@ -165,9 +167,9 @@ void PairOverlap<Room>::extend(int which, int plane, std::array<double, 6>& boun
     }
 }
 
-/// Box round the overlap, along the plane that the other body enters least. False if a plane parts
-/// both bodies, or the box is empty.
-template <class Room> bool PairOverlap<Room>::find_box(int* separating)
+/// Box around the overlap. Its first axis is the normal of the plane that the other body enters
+/// least. False if a plane separates the bodies, or the box is empty.
+template <class Geometry> bool PairOverlap<Geometry>::find_box(int* separating)
 {
     const int first = static_cast<int>(planes[0].size());
     const int all = first + static_cast<int>(planes[1].size());
@@ -190,7 +192,7 @@ template <class Room> bool PairOverlap<Room>::find_box(int* separating)
     if (separating) *separating = own == 0 ? best[0] : first + best[1];
     if (!(least[own] > 0.0)) return false;
     const Vector normal = planes[own][best[own]].normal;
-    const auto [second, third] = Room::tangents(normal);
+    const auto [second, third] = Geometry::tangents(normal);
     box.axes = { normal, second, third };
     std::array<double, 6> bounds { -overlap_detail::infinite, overlap_detail::infinite,
         -overlap_detail::infinite, overlap_detail::infinite, -overlap_detail::infinite,
@@ -210,8 +212,9 @@ template <class Room> bool PairOverlap<Room>::find_box(int* separating)
         if (half[k] < -10.0 * box.tie) return false;
         half[k] = std::max(half[k], 0.0);
     }
-    // Conditions that hold throughout the box are left out. What the others bound is the overlap,
-    // if a part of it is within, as all is convex, and the overlap has some distance from the rim.
+    // Conditions that hold throughout the box are left out. The other conditions then still bound
+    // the overlap: it is convex and does not reach the rim of the box. If the overlap is empty they
+    // may bound a part outside of the box, which is_in_prism() finds.
     box.slack = 1e-3 * half[0] + 10.0 * box.tie;
     for (double& length : half)
         length += box.slack;
@@ -222,7 +225,7 @@ template <class Room> bool PairOverlap<Room>::find_box(int* separating)
 }
 
 /// Smallest and largest normal . x over the prism.
-template <class Room> std::array<double, 2> PairOverlap<Room>::range(Vector normal) const
+template <class Geometry> std::array<double, 2> PairOverlap<Geometry>::range(Vector normal) const
 {
     double least = overlap_detail::infinite, most = -overlap_detail::infinite;
     for (const std::array<double, 2>& at : prism) {
@@ -234,9 +237,10 @@ template <class Room> std::array<double, 2> PairOverlap<Room>::range(Vector norm
     return { least - reach, most + reach };
 }
 
-/// Prism in the box that holds the overlap: its section is cut by all planes, as far out as they
-/// are anywhere between its ends. False if it is empty.
-template <class Room> bool PairOverlap<Room>::find_prism()
+/// Prism along the first axis of the box that contains the overlap. Each plane cuts the section of
+/// the prism at the outermost position that the plane has between the ends. False if the prism is
+/// empty.
+template <class Geometry> bool PairOverlap<Geometry>::find_prism()
 {
     piece.reserve(static_cast<int>(active.size()));
     piece.start(box.half.y, box.half.z);
@@ -253,7 +257,7 @@ template <class Room> bool PairOverlap<Room>::find_prism()
 }
 
 /// True if a point is in the prism, with half of the slack.
-template <class Room> bool PairOverlap<Room>::is_in_prism(Vector at) const
+template <class Geometry> bool PairOverlap<Geometry>::is_in_prism(Vector at) const
 {
     const double rim = 0.5 * box.slack;
     if (std::abs(at.x) > box.half.x - rim || std::abs(at.y) > box.half.y - rim
@@ -266,7 +270,7 @@ template <class Room> bool PairOverlap<Room>::is_in_prism(Vector at) const
 }
 
 /// Planes that may bound the overlap or be nearest to a point of it, those that cut most first.
-template <class Room> bool PairOverlap<Room>::find_active()
+template <class Geometry> bool PairOverlap<Geometry>::find_active()
 {
     active.clear();
     box.largest_depth = overlap_detail::infinite;
@@ -303,7 +307,7 @@ template <class Room> bool PairOverlap<Room>::find_active()
         if (p.counted) box.largest_depth = std::min(box.largest_depth, p.highest);
     }
     drop_far();
-    // where two planes are nearest, the overlap is at most half as deep as both together
+    // the smaller one of two depths is at most half of their sum
     for (std::size_t i = 0; i < active.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
             const Active &one = active[i], &two = active[k];
@@ -316,7 +320,7 @@ template <class Room> bool PairOverlap<Room>::find_active()
     }
     drop_far();
     drop_hidden();
-    // few, and nearly in order
+    // by insertion: the planes are few
     for (std::size_t i = 1; i < active.size(); ++i) {
         const Active one = active[i];
         std::size_t k = i;
@@ -328,7 +332,7 @@ template <class Room> bool PairOverlap<Room>::find_active()
 }
 
 /// Drop planes that are nowhere nearest in the prism. Of equal planes the first counts.
-template <class Room> void PairOverlap<Room>::drop_hidden()
+template <class Geometry> void PairOverlap<Geometry>::drop_hidden()
 {
     is_hidden.assign(active.size(), 0);
     for (std::size_t i = 0; i < active.size(); ++i) {
@@ -358,11 +362,11 @@ template <class Room> void PairOverlap<Room>::drop_hidden()
 /// Add the cone from the plane of i over the present piece, which lies in a plane q or in the ridge
 /// between i and q.
 /// @param factor  of the depth of the apex below q: the height of the cone
-template <class Room>
-void PairOverlap<Room>::add_cone(
+template <class Geometry>
+void PairOverlap<Geometry>::add_cone(
     std::size_t i, const Active& q, double factor, Vector centre, Overlap& sum)
 {
-    constexpr double share = Room::dimension / (Room::dimension + 1.0);
+    constexpr double share = Geometry::dimension / (Geometry::dimension + 1.0);
     const Active& p = active[i];
     if (!has_reference) {
         // cones from afar would lose digits of a small overlap
@@ -372,7 +376,7 @@ void PairOverlap<Room>::add_cone(
     }
     const Vector apex = reference + (p.depth - dot(p.normal, reference)) * p.normal;
     const double height = factor * (q.depth - dot(q.normal, apex));
-    const double volume = piece.size() * height / Room::dimension;
+    const double volume = piece.size() * height / Geometry::dimension;
     const Vector middle = (1.0 - share) * (apex - reference) + share * (centre - reference);
     sums[i].volume += volume;
     sums[i].moment = sums[i].moment + volume * middle;
@@ -380,7 +384,8 @@ void PairOverlap<Room>::add_cone(
 }
 
 /// Add the ridge on which two counted planes are equally near, to both.
-template <class Room> void PairOverlap<Room>::add_ridge(std::size_t i, std::size_t j, Overlap& sum)
+template <class Geometry>
+void PairOverlap<Geometry>::add_ridge(std::size_t i, std::size_t j, Overlap& sum)
 {
     const Active &p = active[i], &q = active[j];
     const Vector apart = p.normal - q.normal, both = p.normal + q.normal;
@@ -392,7 +397,7 @@ template <class Room> void PairOverlap<Room>::add_ridge(std::size_t i, std::size
     const double length = norm(apart);
     if (length <= overlap_detail::round_off) return;
     const Vector normal = (1.0 / length) * apart;
-    const auto [first, second] = Room::tangents(normal);
+    const auto [first, second] = Geometry::tangents(normal);
     const Vector origin = (difference / length) * normal;
     const double a = p.depth - dot(p.normal, origin);
     const double b = dot(p.normal, first), c = dot(p.normal, second);
@@ -406,7 +411,7 @@ template <class Room> void PairOverlap<Room>::add_ridge(std::size_t i, std::size
         if (other.counted) {
             if (!piece.cut(one - a, two - b, three - c)) return;
         } else {
-            // a wall in the ridge bounds the part before it
+            // a wall that lies in the ridge replaces it
             const bool tied = std::abs(one) <= box.tie && std::abs(two) <= overlap_detail::round_off
                 && std::abs(three) <= overlap_detail::round_off;
             if (tied || !piece.cut(one, two, three)) return;
@@ -421,15 +426,16 @@ template <class Room> void PairOverlap<Room>::add_ridge(std::size_t i, std::size
     sums[j].area += 0.5 * length * piece.size();
 }
 
-/// Add the part of a wall to which a counted plane is nearest, to both.
-template <class Room> void PairOverlap<Room>::add_wall(std::size_t w, std::size_t i, Overlap& sum)
+/// Add the part of a wall to which counted plane i is nearest, to the wall and to the plane.
+template <class Geometry>
+void PairOverlap<Geometry>::add_wall(std::size_t w, std::size_t i, Overlap& sum)
 {
     const Active &wall = active[w], &p = active[i];
-    const auto [first, second] = Room::tangents(wall.normal);
+    const auto [first, second] = Geometry::tangents(wall.normal);
     const Vector origin = wall.depth * wall.normal;
     const double a = p.depth - dot(p.normal, origin);
     const double b = dot(p.normal, first), c = dot(p.normal, second);
-    // Conditions that are 0 on the whole wall are taken where it is moved inwards by nothing.
+    // A condition that is 0 on the whole wall is decided as if the wall lay a trifle further inwards.
     const auto keeps = [&](double one, double two, double three, double inwards) {
         if (std::abs(one) <= box.tie && std::abs(two) <= overlap_detail::round_off
             && std::abs(three) <= overlap_detail::round_off) {
@@ -464,8 +470,8 @@ template <class Room> void PairOverlap<Room>::add_wall(std::size_t w, std::size_
 }
 
 /// Forces on faces, and the pressed area.
-template <class Room>
-void PairOverlap<Room>::finish(const ContactBody& a, const ContactBody& b, Overlap& sum)
+template <class Geometry>
+void PairOverlap<Geometry>::finish(const ContactBody& a, const ContactBody& b, Overlap& sum)
 {
     std::array<double, 2> area {};
     for (std::size_t i = 0; i < active.size(); ++i) {
@@ -484,8 +490,8 @@ void PairOverlap<Room>::finish(const ContactBody& a, const ContactBody& b, Overl
         [](const FaceForce& one, const FaceForce& two) { return one.face < two.face; });
 }
 
-template <class Room>
-Overlap PairOverlap<Room>::measure(
+template <class Geometry>
+Overlap PairOverlap<Geometry>::measure(
     const ContactBody& a, const ContactBody& b, double clearance, int* separating)
 {
     Overlap sum;
@@ -505,16 +511,16 @@ Overlap PairOverlap<Room>::measure(
                 add_wall(i, k, sum);
             else if (i < k)
                 add_ridge(i, k, sum);
-            if (is_astray)
-                return {};  // the planes that are left have something in common, but not all
+            // the planes that were kept have a common part, but all planes together have none
+            if (is_astray) return {};
         }
     }
     finish(a, b, sum);
     return sum;
 }
 
-template <class Room>
-double PairOverlap<Room>::birth_clearance(const ContactBody& a, const ContactBody& b)
+template <class Geometry>
+double PairOverlap<Geometry>::birth_clearance(const ContactBody& a, const ContactBody& b)
 {
     double clearance = 0.0, margin = overlap_detail::birth_margin;
     // a sharp body may keep more than the margin for round-off
@@ -526,16 +532,24 @@ double PairOverlap<Room>::birth_clearance(const ContactBody& a, const ContactBod
     return clearance;
 }
 
-template <class Room>
-double PairOverlap<Room>::clearance_for(const ContactBody& a, const ContactBody& b, double energy)
+template <class Geometry>
+double PairOverlap<Geometry>::clearance_for(
+    const ContactBody& a, const ContactBody& b, double energy)
 {
-    if (!(energy > 0.0)) return birth_clearance(a, b);
+    check_not_negative("clearance_for: energy of a pair over K_n", energy, "m^4");
+    if (energy == 0.0) return birth_clearance(a, b);
     Overlap found = measure(a, b, 0.0);
+    const double size = norm(b.centre - a.centre);
     double low = 0.0, high = found.depth;
-    for (double step = std::max(found.depth, overlap_detail::round_off * box.size);
-         found.energy < energy; step *= 2.0) {
+    double step = std::max(found.depth, overlap_detail::round_off * size);
+    for (int tries = 0; found.energy < energy; ++tries) {
+        if (tries == 60) {
+            refuse("clearance_for: energy of a pair over K_n", energy, "m^4",
+                "must be one that the bodies can have; check that they have counted faces");
+        }
         high = low;
         low -= step;
+        step *= 2.0;
         found = measure(a, b, low);
     }
     // Newton's rule for the root of the energy, which is nearly linear, within the bounds
@@ -555,7 +569,7 @@ double PairOverlap<Room>::clearance_for(const ContactBody& a, const ContactBody&
         const double fine = std::sqrt(found.energy);
         double next = at + (fine - root) * fine / volume;
         if (!(next > low && next < high)) next = 0.5 * (low + high);
-        if (std::abs(next - at) <= 1e-16 * box.size || next == low || next == high) break;
+        if (std::abs(next - at) <= 1e-16 * size || next == low || next == high) break;
         at = next;
         found = measure(a, b, at);
     }
