@@ -50,7 +50,7 @@ Body<InSpace> prism_of(const Body<InPlane>& body, double thickness)
         prism.faces.push_back({ i, k, k + n, i + n });
         prism.counted.push_back(body.counted[f]);
     }
-    // edges lead from one corner to the next, but are in no order
+    // edges have no order
     std::vector<int> ring { 0 };
     while (static_cast<int>(ring.size()) < n) {
         for (const std::vector<int>& edge : body.faces) {
@@ -68,22 +68,22 @@ Body<InSpace> prism_of(const Body<InPlane>& body, double thickness)
     return prism;
 }
 
-/// Two drawn rigid bodies that meet, stepped by velocity Verlet. Their inertia is that of a sphere
-/// or a disc, so that spins stay without a moment.
+/// Two random rigid bodies that collide, stepped by velocity Verlet. Their inertia is that of a sphere
+/// or a disc, so that a spin is constant without a moment.
 template <class Geometry> class Impact {
 public:
     explicit Impact(std::uint64_t seed) : random(seed), bodies { draw(), draw() }
     {
-        const Vector way = direction<Geometry>(random);
-        bodies[1].centre = way;
+        const Vector toward = direction<Geometry>(random);
+        bodies[1].centre = toward;
         set_depth(pair, bodies[0], bodies[1], 1e-9);
-        bodies[1].centre = bodies[1].centre + 1e-3 * way;
-        velocity = { 0.5 * way, -0.5 * way };
+        bodies[1].centre = bodies[1].centre + 1e-3 * toward;
+        velocity = { 0.5 * toward, -0.5 * toward };
         for (Vector& s : spin)
             s = between(random, -1.0, 1.0) * axis();
     }
 
-    /// Step until both have parted. Return the steps in touch, or 0 if they never met.
+    /// Step until the bodies have separated. Return the number of steps in touch, 0 if they never touch.
     int run(double dt)
     {
         const double before = kinetic();
@@ -114,8 +114,8 @@ public:
         return 0;
     }
 
-    double lost = 0.0;           ///< after parting, of the energy [-]
-    double lost_in_touch = 0.0;  ///< at most, while in touch [-]
+    double lost = 0.0;           ///< of the energy, after separation [-]
+    double lost_in_touch = 0.0;  ///< largest one in touch [-]
 
 private:
     static constexpr double stiffness = 1e5, inertia = 0.1;
@@ -379,14 +379,14 @@ TEMPLATE_TEST_CASE(
             moment = moment + cross(on.point + (of_a ? a : b).centre - a.centre, on.force);
             size += norm(on.force);
         }
-        std::array<std::vector<Vector>, 2> ways;
+        std::array<std::vector<Vector>, 2> displacements;
         double slope = 0.0, all = 0.0;
         for (int q = 0; q < 2; ++q) {
             const Body<TestType>& body = q == 0 ? a : b;
             for (std::size_t i = 0; i < body.nodes.size(); ++i) {
                 const Vector at = body.nodes[i] + body.centre - a.centre;
-                ways[q].push_back(direction<TestType>(random));
-                slope -= dot(ways[q].back(), forces[q][i]);
+                displacements[q].push_back(direction<TestType>(random));
+                slope -= dot(displacements[q].back(), forces[q][i]);
                 all += norm(forces[q][i]);
                 nodal_sum = nodal_sum + forces[q][i];
                 nodal_moment = nodal_moment + cross(at, forces[q][i]);
@@ -401,9 +401,9 @@ TEMPLATE_TEST_CASE(
         const auto energy = [&](double step) {
             Body<TestType> one = a, two = b;
             for (std::size_t i = 0; i < one.nodes.size(); ++i)
-                one.nodes[i] = one.nodes[i] + step * ways[0][i];
+                one.nodes[i] = one.nodes[i] + step * displacements[0][i];
             for (std::size_t i = 0; i < two.nodes.size(); ++i)
-                two.nodes[i] = two.nodes[i] + step * ways[1][i];
+                two.nodes[i] = two.nodes[i] + step * displacements[1][i];
             return overlap_of(pair, one, two, clearance, false).energy;
         };
         const double h = 1e-3 * std::min(depth, found.depth);
@@ -428,17 +428,17 @@ TEMPLATE_TEST_CASE("each node's force is a derivative of the energy", "[overlap]
                 all += norm(force);
         for (int q = 0; q < 2; ++q) {
             for (std::size_t i = 0; i < forces[q].size(); ++i) {
-                const Vector way = direction<TestType>(random);
+                const Vector displacement = direction<TestType>(random);
                 const auto energy = [&](double step) {
                     Body<TestType> one = sampled.a, two = sampled.b;
                     Vector& node = (q == 0 ? one : two).nodes[i];
-                    node = node + step * way;
+                    node = node + step * displacement;
                     return overlap_of(pair, one, two, 0.0, false).energy;
                 };
                 const double difference =
                     (8.0 * (energy(h) - energy(-h)) - (energy(2.0 * h) - energy(-2.0 * h)))
                     / (12.0 * h);
-                CHECK(std::abs(difference + dot(way, forces[q][i])) <= 1e-7 * all);
+                CHECK(std::abs(difference + dot(displacement, forces[q][i])) <= 1e-7 * all);
             }
         }
     }
@@ -499,14 +499,14 @@ TEMPLATE_TEST_CASE("pairs are born without energy and force", "[overlap]", InPla
             a.faces[static_cast<std::size_t>(static_cast<double>(a.faces.size()) * random.next())];
         Vector at = a.nodes[face[0]];
         if (born % 2 == 1) at = 0.5 * (at + a.nodes[face[1]]);
-        const Vector way = (1.0 / norm(at)) * at;
+        const Vector outward = (1.0 / norm(at)) * at;
         Vector nearest = b.nodes[0];
         for (const std::vector<int>& other : b.faces) {
             Vector to = b.nodes[other[0]];
             if (born % 2 == 1) to = 0.5 * (to + b.nodes[other[1]]);
-            if (dot(to, way) < dot(nearest, way)) nearest = to;
+            if (dot(to, outward) < dot(nearest, outward)) nearest = to;
         }
-        b.centre = a.centre + at - nearest - between(random, 1e-5, 0.05) * way;
+        b.centre = a.centre + at - nearest - between(random, 1e-5, 0.05) * outward;
         const bool flat = i % 4 != 0 && k % 4 != 0;
         const Planes<TestType> of_a(a, flat), of_b(b, flat);
         const double depth = pair.measure(of_a.view, of_b.view, 0.0).depth;
@@ -531,7 +531,7 @@ TEMPLATE_TEST_CASE("pairs are born without energy and force", "[overlap]", InPla
 
 TEMPLATE_TEST_CASE("small overlaps keep their digits", "[overlap]", InPlane, InSpace)
 {
-    // edges that cross, in most cases: no face parts bodies that nearly touch
+    // mostly edges that cross: no face separates bodies that nearly touch
     Random random(37);
     PairOverlap<TestType> pair;
     for (int k = 0; k < 200; ++k) {
@@ -629,7 +629,7 @@ TEST_CASE("a slab of one cell has the overlap of the plane", "[overlap]")
                 [&](const FaceForce& other) { return other.face == face; });
             REQUIRE(same != in_space.forces().end());
             CHECK(norm(same->force - thickness * on.force) <= 1e-9 * thickness * most);
-            // a small force says little of its place
+            // the point of a small force has few digits
             CHECK(norm(same->point - on.point) * norm(on.force) <= 1e-9 * most);
         }
     }
@@ -641,8 +641,8 @@ TEMPLATE_TEST_CASE("a remembered plane changes no bit", "[overlap]", InPlane, In
     PairOverlap<TestType> pair;
     for (int k = 0; k < 100; ++k) {
         RandomPair<TestType> sampled(pair, random, between(random, 0.0005, 0.08));
-        const Vector way = sampled.b.centre - sampled.a.centre;
-        if (k % 2 == 1) sampled.b.centre = sampled.b.centre + 0.1 * way;
+        const Vector apart = sampled.b.centre - sampled.a.centre;
+        if (k % 2 == 1) sampled.b.centre = sampled.b.centre + 0.1 * apart;
         const Planes<TestType> one(sampled.a), two(sampled.b);
         const Overlap first = pair.measure(one.view, two.view, 0.0);
         const std::vector<FaceForce> forces = pair.forces();
@@ -681,7 +681,7 @@ TEMPLATE_TEST_CASE("an impact without friction returns its energy", "[overlap]",
     }
     CAPTURE(worst[0], worst[1], worst[2], worst_in_touch[0], worst_in_touch[1], worst_in_touch[2]);
     CHECK(worst[2] < 1e-6);
-    // as dt^2 at least: after parting, and in touch
+    // at least as dt^2, after separation and in touch
     CHECK(worst[1] < worst[0] / 12.0);
     CHECK(worst_in_touch[2] < worst_in_touch[1] / 3.0);
 }

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace convex_bodies {
@@ -52,7 +51,7 @@ template <class Geometry> struct Body {
     }
 };
 
-/// Planes of a body at present. It must outlive the view.
+/// Planes of a body as it is now. The body must outlive its view.
 template <class Geometry> struct Planes {
     std::vector<ContactPlane> planes;
     ContactBody view;
@@ -93,7 +92,7 @@ Body<Geometry> body_of(const std::vector<Vector>& normals, const std::vector<dou
                 return;
         }
         for (std::size_t i = 0; i < body.nodes.size(); ++i) {
-            // corners of more faces than needed are found more than once
+            // a corner of more faces than needed is found several times
             if (norm(body.nodes[i] - corner) > 1e-10) continue;
             for (const int k : at) {
                 std::vector<int>& face = body.faces[k];
@@ -150,7 +149,7 @@ Body<Geometry> body_of(const std::vector<Vector>& normals, const std::vector<dou
     return body;
 }
 
-/// Box round its centre.
+/// Box about its centre.
 template <class Geometry> Body<Geometry> box(Vector half)
 {
     std::vector<Vector> normals { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 } };
@@ -162,7 +161,7 @@ template <class Geometry> Body<Geometry> box(Vector half)
     return body_of<Geometry>(normals, offsets);
 }
 
-/// Body of diameter 1 or so with drawn faces, turned at random.
+/// Body with a diameter of about 1 and random faces.
 template <class Geometry> Body<Geometry> random_body(Random& random)
 {
     // directions that are far from each other, so that most planes have a face
@@ -195,17 +194,17 @@ template <class Geometry>
 void set_depth(
     PairOverlap<Geometry>& pair, const Body<Geometry>& a, Body<Geometry>& b, double depth)
 {
-    const Vector apart = b.centre - a.centre, way = (1.0 / norm(apart)) * apart;
+    const Vector apart = b.centre - a.centre, toward = (1.0 / norm(apart)) * apart;
     double low = 0.3, high = 2.0;
     for (int k = 0; k < 12; ++k) {
         const double middle = 0.5 * (low + high);
-        b.centre = a.centre + middle * way;
+        b.centre = a.centre + middle * toward;
         (overlap_of(pair, a, b).depth > depth ? low : high) = middle;
     }
-    b.centre = a.centre + low * way;
+    b.centre = a.centre + low * toward;
 }
 
-/// Two drawn bodies that overlap, at a place of their own.
+/// Two random bodies that overlap, far from the origin.
 template <class Geometry> struct RandomPair {
     Body<Geometry> a, b;
 

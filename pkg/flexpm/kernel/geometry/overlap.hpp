@@ -127,7 +127,7 @@ public:
     void find_corners(const ContactPlane* planes, int faces, std::vector<Vector>& corners);
 
 private:
-    /// Plane in the frame of the box round the overlap.
+    /// Plane in the frame of the box around the overlap.
     struct Active {
         Vector normal;
         double depth;            ///< of the origin
