@@ -87,6 +87,17 @@ def test_grains_that_are_not_convex_get_the_best_cells(largest, least):
     assert fit.poor_grains[0] == labels[np.argmin(agreement)]
 
 
+def test_a_grain_within_another_is_named():
+    """Both have one centroid, and a shell is far from convex: one of them has no cell."""
+    labels = np.ones((9, 9, 9), int)
+    labels[2:7, 2:7, 2:7] = 2
+    refusal("grains with a cell in the box = 1 of 2", made, labels)
+    labels[:, :, :2] = 3
+    fit = made(labels).fit
+    assert fit.totals["lost_grains"] == fit.poor_grains == [2]
+    assert fit.columns["volume"][1] == 0.0 and fit.columns["centroid_shift"][1] is None
+
+
 def test_stretched_voxels_fit_as_well():
     volume = few_cells()
     whole = made(volume.labels).fit.totals["agreement"]

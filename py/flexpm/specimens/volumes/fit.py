@@ -210,7 +210,8 @@ class _Problem:
         radii = np.cbrt(0.75 / np.pi * grid.voxel * grid.voxels())
         solid = Solid.box(*grid.sizes.tolist())
         rivals = _rivals(grid.neighbours(), grid.count)
-        return cls(grid, solid, grid.centroids(), radii, _samples(grid), rivals)
+        centroids = _apart(grid.centroids(), 1e-3 * float(np.cbrt(grid.voxel)))
+        return cls(grid, solid, centroids, radii, _samples(grid), rivals)
 
     def start(self) -> Trial:
         """Cells of the centroids, with the radii of balls of the regions' volumes."""
@@ -238,7 +239,10 @@ class _Problem:
         # cell: points come near to the centroids, far from the points that close the cells
         middle = self.centroids.mean(axis=0)
         off, away = slopes - slopes.mean(axis=0), self.centroids - middle
+        # a negative factor would turn the order of the scores
         factor = float(np.sum(off * away) / np.sum(off * off))
+        if not factor > 0.0:
+            factor = float(np.sqrt(np.sum(away * away) / np.sum(off * off)))
         points = factor * off + middle
         weights = factor * (levels - 2.0 * np.sum(slopes * self.centroids, axis=1))
         weights += np.sum(points**2, axis=1)
@@ -269,6 +273,15 @@ def _with_volumes(problem: _Problem, best: Trial) -> Trial:
     volumes = voxels * (problem.solid.volume / voxels.sum())
     weights = call(weights_of_volumes, best.points, best.weights, problem.solid, volumes, _EXACT)
     return problem.of_points(best.points, weights, best.scores, best.stage)
+
+
+def _apart(points: FloatArray, distance: float) -> FloatArray:
+    """Move points that are in one place, such as centroids of a grain and its shell, apart."""
+    _, first, number = np.unique(points, axis=0, return_index=True, return_inverse=True)
+    same = np.flatnonzero(first[number] != np.arange(len(points)))
+    moved = points.copy()
+    moved[same, 0] += distance * (1 + np.arange(len(same)))
+    return moved
 
 
 def _samples(grid: Grid) -> tuple[FloatArray, IntArray, FloatArray]:

@@ -98,10 +98,14 @@ def specimen_of(
             break
         points, weights, kept = points[there], weights[there], kept[there]
         cells = call(weighted_cells, points, weights, frame.solid())
-    if np.count_nonzero(kept < found.grains) < 2:
+    left = int(np.count_nonzero(kept < found.grains))
+    if left < 2:
+        remedy = "give another part of the volume"
+        if options.diameter is not None:
+            remedy = "give a larger diameter"
         raise InputError(
-            f"{_WHERE}: grains in the {options.shape} = {np.count_nonzero(kept < found.grains)}, "
-            "must be >= 2; give a larger diameter"
+            f"{_WHERE}: grains with a cell in the {options.shape} = {left} of {found.grains}, must "
+            f"be >= 2; {remedy}"
         )
     own = OwnCells.of_weighted(cells).with_pores(int(np.count_nonzero(kept >= found.grains)))
     made = SolidSpecimen.of_cells(

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -25,7 +26,8 @@ class VolumeReport:
     """Agreement of grains with their cells in the box of the volume.
 
     Attributes:
-        columns: One value for each grain of the volume, by name; see doc/volumes.
+        columns: One value for each grain of the volume, by name; see doc/volumes. A grain without
+            a cell has no ``centroid_shift``: None.
         totals: Figures of the whole volume, see doc/volumes.
         regions: Region of each voxel, (z, y, x); regions from ``len(columns["label"])`` on are
             pieces of pores.
@@ -35,7 +37,7 @@ class VolumeReport:
         origin: Corner of the first voxel in the file [m].
     """
 
-    columns: dict[str, list[float]]
+    columns: dict[str, list[Any]]
     totals: Table
     regions: Labels
     cells: Labels
@@ -66,7 +68,6 @@ def compare(
     voxels, cells = grid.voxels(), fitted.best.cells
     volumes = voxels * grid.voxel
     shift = np.sqrt(np.sum((cells.centroids - grid.centroids()) ** 2, axis=1))
-    shift[cells.volumes <= 0.0] = np.nan
     of_voxels, of_cells = grid.neighbours(), edges_of(cells).astype(np.int64)
     keys, others = (pairs @ [grid.count, 1] for pairs in (of_voxels, of_cells))
     lost = of_voxels[~np.isin(keys, others)]
@@ -105,6 +106,8 @@ def compare(
         "lost_grains": found.ids[rock][cells.volumes[rock] <= 0.0].tolist(),
     }
     kept = {name: np.asarray(values)[rock].tolist() for name, values in columns.items()}
+    for lost in np.flatnonzero(cells.volumes[rock] <= 0.0).tolist():
+        kept["centroid_shift"][lost] = None  # no cell
     agree, spacing = grid.agrees(fitted.best.found), tuple(grid.spacing.tolist())
     made = VolumeReport(kept, totals, grid.regions, fitted.best.found, agree, spacing, origin)
     totals["poor_grains"] = made.poor_grains
