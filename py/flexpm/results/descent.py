@@ -18,6 +18,8 @@ from .record import Curve
 
 #: Axial strain after the peak over which drop and dilation are measured [-].
 WINDOW = 0.005
+#: Reason of a missing drop.
+ENDS_EARLY = "the test ends soon after the largest deviator, before a tenth of it is lost"
 
 
 def secant_poissons_ratio(curve: Curve, share: float) -> float | None:

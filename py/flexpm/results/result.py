@@ -22,7 +22,7 @@ from ..renamed import (
     with_old_keys,
     with_old_names,
 )
-from . import core, doubts, measures, waves
+from . import core, descent, doubts, measures, waves
 from .cracks import MODES, AnyCrack, cracks_csv, read_cracks
 from .emission import AnyEvent, EventRule, events_csv, find_events, frequencies, read_events
 from .record import Curve
@@ -94,6 +94,8 @@ class Result(Shown):
     energy_error: float | None = None  #: relative to the largest work [-]
     contact_width: float | None = None  #: mean of the plates of a Brazilian test at its end [m]
     softening_slope: float | None = None  #: of stress over strain after the peak [Pa]
+    #: part of a core's largest deviator that is lost within 0.5 % of axial strain after it [-]
+    drop_after_peak: float | None = None
     tangent_modulus_ratio: float | None = None  #: at 80 % of the peak over that at 20 % [-]
     softening_onset: float | None = None  #: share of the peak at which a point first softens [-]
     first_tensile_crack_strain: float | None = None  #: axial strain at it [-]
@@ -109,7 +111,7 @@ class Result(Shown):
     #: deviator from which crack volumetric strain exceeds 2 % of the elastic one [Pa]
     crack_initiation_stress_volumetric: float | None = None
     crack_damage_stress: float | None = None  #: deviator at the extreme of volumetric strain [Pa]
-    null_reasons: Table | None = None  #: why crack thresholds are missing, by their names
+    null_reasons: Table | None = None  #: why crack thresholds or the drop are missing, by names
     #: axial stress at the first crack of a split disc or a notched specimen [Pa]
     first_crack_stress: float | None = None
     #: median distance of its first cracks from the middle of the disc over the radius, or from the
@@ -271,7 +273,11 @@ class Result(Shown):
         found = core.crack_thresholds(record, *self._moduli(dynamic=dynamic), solid=solid)
         for name, value in found.stresses.items():
             setattr(self, name, value)
-        self.null_reasons = found.reasons or None
+        self.drop_after_peak = descent.drop_after_peak(record)
+        reasons = dict(found.reasons)
+        if self.drop_after_peak is None:
+            reasons["drop_after_peak"] = descent.ENDS_EARLY
+        self.null_reasons = reasons or None
         self.curve = core.with_volume(record, solid=solid)
 
     def measure_first_cracks(self, origin: tuple[float, float], length: float) -> None:

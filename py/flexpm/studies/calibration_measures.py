@@ -31,8 +31,10 @@ QUOTIENTS = {"direct_indirect_ratio": ("direct_tensile_strength", "indirect_tens
 #: Measures of runs at several confining pressures.
 _OF_ENVELOPE = ("cohesion", "friction_angle", "hoek_brown_strength", "hoek_brown_m")
 #: Measures of one run at a confining pressure: their tables in a file, and keys of result.json.
-AT_PRESSURE = {"peaks": "peak"}
-_KEYS_AT_PRESSURE = {"peak": "peak_stress"}
+AT_PRESSURE = {"peaks": "peak", "drops": "drop"}
+_KEYS_AT_PRESSURE = {"peak": "peak_stress", "drop": "drop_after_peak"}
+#: Measures of which a rock has the least value; runs go on past their peaks for them.
+_LEAST = ("drop",)
 #: All measures that have one value.
 MEASURES = (*_TOLD, *QUOTIENTS, *_OF_ENVELOPE)
 _AT = "_at_"
@@ -51,6 +53,11 @@ def without_pressure(name: str) -> str:
 def is_stress(name: str) -> bool:
     """Whether a measure is a stress, unless its key of result.json says otherwise."""
     return without_pressure(name) in (*MEASURES, *_KEYS_AT_PRESSURE) and len(keys_of(name)) == 1
+
+
+def is_least(name: str) -> bool:
+    """Whether the target of a measure is its least value, which any larger value meets."""
+    return without_pressure(name) in _LEAST
 
 
 def keys_of(name: str) -> tuple[str, ...]:

@@ -36,6 +36,7 @@ from ..require import (
 from ..runs import input_names
 from ..specimens.checks import DIAMETERS, require_seed
 from . import calibration_measures as measures_of
+from . import past_peak
 from .calibration_measures import AT_PRESSURE, ELASTIC_MEASURES, MEASURES, Run
 from .study import MOST_RUNS, flat
 
@@ -64,13 +65,22 @@ class Target:
     weight: float = 1.0  #: of its squared deviation in tolerances [-]
     pressure: float | None = None  #: confining pressure that the measure is of [Pa]
 
+    @property
+    def least(self) -> bool:
+        """Whether the value is a least value, which any larger one meets."""
+        return self.pressure is not None and measures_of.is_least(self.name)
+
     def residual(self, found: float) -> float:
-        """Weighted deviation in tolerances [-]."""
-        return math.sqrt(self.weight) * (found / self.value - 1.0) / self.tolerance
+        """Weighted deviation in tolerances [-]; 0 above a least value."""
+        part = found / self.value - 1.0
+        return math.sqrt(self.weight) * (min(part, 0.0) if self.least else part) / self.tolerance
 
     def corrected(self, small: float | None, full: float | None) -> Target:
-        """Return the target of small specimens with which full specimens should meet theirs."""
-        if small is None or full is None:
+        """Return the target of small specimens with which full specimens should meet theirs.
+
+        A least value stays: beyond it values of small and full specimens differ at will.
+        """
+        if small is None or full is None or self.least:
             return self
         return replace(self, value=self.value * small / full)
 
@@ -172,6 +182,15 @@ class Calibration:
             solid=is_solid(self.screen.options.get("shape", "")),
         )
 
+    def ends(self, run: Run) -> Table:
+        """Return the options by which a run goes on past its peak; none unless a drop needs it."""
+        if not any(run in self.tests(target) for target in self.targets if target.least):
+            return {}
+        values = {target.name: target.value for target in self.targets}
+        unconfined = values.get(measures_of.name_at("peak", 0.0))
+        strength = values.get("compressive_strength", unconfined)
+        return past_peak.ends(run[1], strength, values.get("youngs_modulus"))
+
     def entries(self, target: Target) -> list[tuple[Run, str]]:
         """Return test, confining pressure [Pa] and key of result.json of each part of a measure."""
         return measures_of.entries(target.name, self.tests(target))
@@ -229,15 +248,18 @@ def _targets(wanted: Table) -> Iterator[Target]:
             yield target_of(name, entry)
             continue
         label = f"calibration [target] {name}"
-        peaks = require_table(label, entry)
-        _require(f"[target] {name}", peaks, bool(peaks), "a table with entries")
+        by_pressure = require_table(label, entry)
+        _require(f"[target] {name}", by_pressure, bool(by_pressure), "a table with entries")
         known: set[str] = set()
-        for text, one in peaks.items():
+        for text, one in by_pressure.items():
             pressure = _pressure(f"[target] {name}", text, one)
             found = measures_of.name_at(AT_PRESSURE[name], pressure)
             _require(f"[target] {name}", text, found not in known, "a pressure that differs")
             known.add(found)
-            yield replace(target_of(found, one), pressure=pressure)
+            target = replace(target_of(found, one), pressure=pressure)
+            is_share = target.value < 1.0 or not target.least
+            _require(f"[target] {found}", target.value, is_share, "a part of the peak, below 1")
+            yield target
 
 
 def _pressure(label: str, text: str, entry: object) -> float:

@@ -31,6 +31,7 @@ _UNITS = {
     "friction_angle": (1.0, "degrees"),
     "hoek_brown_m": (1.0, ""),
     "direct_indirect_ratio": (1.0, ""),
+    "drop_after_peak": (1.0, ""),
 }
 #: Direct over indirect tension that granites show [-], as the record has it.
 _GRANITES = 0.77
@@ -50,7 +51,8 @@ def table_rows(plan: Calibration, outcome: Outcome) -> list[tuple[str, str]]:
         if spread is not None and error is not None:
             text += f" ± {factor * spread:.2g}, error of the mean {factor * error:.2g}"
         verdict = "met" if outcome.met[target.name] else "NOT met"
-        wanted = f"{factor * target.value:.4g} {unit}".rstrip()
+        least = "at least " if target.least else ""
+        wanted = f"{least}{factor * target.value:.4g} {unit}".rstrip()
         # a run gives another Poisson's ratio where points soften early
         kind = "elastic " if target.name in ELASTIC_MEASURES else ""
         rows.append((f"{kind}{words_of(target.name)}", f"{text}, target {wanted}: {verdict}"))
@@ -132,8 +134,10 @@ def picture(path: Path, plan: Calibration, outcome: Outcome) -> None:
     with drawing(path, (5.6, 1.2 + 0.42 * len(plan.targets))) as axes:
         for row, target in enumerate(plan.targets):
             found = np.array(outcome.best.measures[target.name], dtype=float) / target.value
-            width = 2.0 * target.tolerance
-            axes.barh(row, width, left=1.0 - target.tolerance, height=0.6, color="#dbe6ee")
+            low, high = 1.0 - target.tolerance, 1.0 + target.tolerance
+            if target.least:
+                high = max(high, *found[np.isfinite(found)], 1.0)
+            axes.barh(row, high - low, left=low, height=0.6, color="#dbe6ee")
             axes.plot(found, np.full(len(found), row), "o", ms=3.5, mfc="none", mec="#0072b2")
             axes.plot(np.mean(found), row, "D", ms=5.0, color="black")
         axes.axvline(1.0, color="0.4", lw=0.8)

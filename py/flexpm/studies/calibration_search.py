@@ -418,7 +418,8 @@ def _jobs(
     return {
         (seed, (test, confinement)): jobs.make(
             {
-                **{**common, **keys_of(test), **runs.of_test.get(test, {})},
+                **{**common, **keys_of(test), **plan.ends((test, confinement))},
+                **runs.of_test.get(test, {}),
                 **{"test": test, "confinement": confinement, "seed": seed},
             },
             plan.base,

@@ -37,6 +37,8 @@ class Aim(Protocol):
     def value(self) -> float: ...  # noqa: D102
     @property
     def tolerance(self) -> float: ...  # noqa: D102
+    @property
+    def least(self) -> bool: ...  # noqa: D102
 
 
 class Tried(Protocol):
@@ -231,7 +233,9 @@ def judge(
         if not keys or not targets:
             continue
         found = slopes(tried, keys, targets)
-        left |= left_open(found, keys, free, [*targets])
+        # a least value that is exceeded determines no key
+        binding = [not (aim.least and is_met(aim, best.mean(aim.name))) for aim in targets]
+        left |= left_open(found * np.array(binding)[:, None], keys, free, [*targets])
         rows = zip(targets, found.tolist(), strict=True)
         for aim, row in rows:  # both searches may have it
             if len(_with_measure(tried, aim)) > 1:
@@ -259,6 +263,7 @@ def _measure(aim: Aim, best: Tried, told: Sequence[str]) -> Table:
         "name": aim.name,
         "target": aim.value,
         "tolerance": aim.tolerance,
+        "least": aim.least,
         "mean": mean,
         "error": best.error(aim.name),
         "met": is_met(aim, mean),
@@ -267,5 +272,8 @@ def _measure(aim: Aim, best: Tried, told: Sequence[str]) -> Table:
 
 
 def is_met(aim: Aim, mean: float | None) -> bool:
-    """Whether a mean is within the tolerance of a target."""
-    return mean is not None and abs(mean / aim.value - 1.0) <= aim.tolerance
+    """Whether a mean is within the tolerance of a target, or above a least value."""
+    if mean is None:
+        return False
+    part = mean / aim.value - 1.0
+    return (-part if aim.least else abs(part)) <= aim.tolerance

@@ -319,7 +319,8 @@ def _of_target(one: Table) -> tuple[str, ...]:
         result += f" ± {factor * error:.2g}"
     verdict = "met" if one["met"] else "missed" if mean is not None else "not measured"
     advice = ". ".join(printable(str(line)) for line in one["advice"])
-    target = f"{factor * one['target']:.4g} {unit}".rstrip()
+    least = "at least " if one.get("least") else ""
+    target = f"{least}{factor * one['target']:.4g} {unit}".rstrip()
     tolerance = f"{100.0 * one['tolerance']:g}"
     return (words_of(str(one["name"])), result, target, tolerance, verdict, advice)
 

@@ -14,7 +14,7 @@ from sample_rows import row
 from sample_snapshot import HEIGHT, WIDTH, wall
 
 from flexpm.renamed import current
-from flexpm.results import measures
+from flexpm.results import descent, measures
 from flexpm.results.cracks import Crack, SolidCrack
 from flexpm.results.record import COLUMNS, Curve
 from flexpm.results.result import Result
@@ -51,7 +51,7 @@ KEYS = [
     "end_mismatch",
     "energy_error",
     "contact_width",
-    "softening_slope",
+    *("softening_slope", "drop_after_peak"),
     "tangent_modulus_ratio",
     "softening_onset",
     "first_tensile_crack_strain",
@@ -390,6 +390,20 @@ def test_csv_numbers_read_back_unchanged(values):
     assert list(rows[0]) == list(COLUMNS)
     assert [float(line["axial_strain"]) for line in rows] == values
     assert [int(line["step"]) for line in rows] == list(range(len(values)))
+
+
+@pytest.mark.parametrize("rows", [1.0, 0.5])
+def test_a_core_has_its_drop_or_the_reason_why_not(rows):
+    record = triangular_record(2e6)
+    result = result_of(record.until(int(rows * len(record))))
+    result.measure(QUASISTATIC)
+    result.measure_core(solid=False, dynamic=False)
+    if rows == 1.0:
+        assert result.drop_after_peak == descent.drop_after_peak(record) > 0.1
+        assert "drop_after_peak" not in (result.null_reasons or {})
+    else:
+        assert result.drop_after_peak is None
+        assert result.null_reasons["drop_after_peak"].startswith("the test ends soon")
 
 
 def test_files_of_a_result(tmp_path):

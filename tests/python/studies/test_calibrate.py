@@ -24,6 +24,9 @@ from flexpm.materials.mixing import value_of
 from flexpm.studies import calibration_problem, calibration_search, jobs
 from flexpm.studies.calibration_losses import loss
 from flexpm.studies.calibration_report import picture, table_rows, unit_of, write_preset
+from flexpm.studies.calibration_verdict import is_met
+from flexpm.studies.scorecards import runs as scorecard_runs
+from flexpm.studies.scorecards.rock import load as load_rock
 
 ROOT = Path(__file__).resolve().parents[3]
 GOOD = """
@@ -79,6 +82,8 @@ def plan_of(folder: Path, text: str = GOOD) -> calibration_problem.Calibration:
             "[target]\npeaks = { 12.5e6 = 3e8 }",
             "a pressure with a point stands in quotes",
         ),
+        ("[target]", "[target]\ndrops = { 1e7 = 1.0 }", "must be a part of the peak, below 1"),
+        ("[target]", "[target]\ndrops = 0.1", "must be a table"),
         ("rounds = 2", 'tied = ["cohesion"]', "tied = 'cohesion', unknown"),
     ],
 )
@@ -144,6 +149,60 @@ def test_peaks_are_targets_at_their_confining_pressures(tmp_path, shape, test):
     assert [plan.measure(t, found) for t in (without, under)] == [118e6, 199e6]
     assert plan.measure(under, {(test, 1e7): {"status": "no_peak"}}) is None
     assert unit_of("peak_at_10_MPa") == (1e-6, "MPa")
+
+
+DROPS = GOOD.replace(
+    "[target]",
+    """[target]
+youngs_modulus = 25.8e9
+peaks = { "36.6e6" = 350e6 }
+drops = { "36.6e6" = { value = 0.2, tolerance = 0.1 } }
+""",
+).replace("[screen]", "[common]\nstop_ratio = 0.9\n[screen]")
+
+
+def test_a_drop_is_a_least_value_at_its_confining_pressure(tmp_path):
+    plan = plan_of(tmp_path, DROPS)
+    peak, drop = plan.targets[1:3]
+    assert (peak.name, drop.name) == ("peak_at_36.6_MPa", "drop_at_36.6_MPa")
+    assert plan.tests(peak) == plan.tests(drop) == [("biaxial", 36.6e6)]
+    assert plan.measure(drop, {("biaxial", 36.6e6): {"drop_after_peak": 0.35}}) == 0.35
+    assert plan.measure(drop, {("biaxial", 36.6e6): {"peak_stress": 350e6}}) is None
+    assert [drop.residual(one) for one in (0.16, 0.2, 0.9)] == pytest.approx([-2.0, 0.0, 0.0])
+    assert peak.residual(2 * peak.value) > 0.0  # other targets have two sides
+    assert drop.corrected(0.4, 0.1) == drop
+    assert [is_met(drop, one) for one in (0.17, 0.19, 0.9, None)] == [False, True, True, False]
+    assert unit_of(drop.name) == (1.0, "")
+
+
+def test_runs_of_a_drop_go_on_as_those_of_a_scorecard(tmp_path):
+    """36.6 MPa is 0.3 of the strength; the peak follows from the same run."""
+    plan = plan_of(tmp_path, DROPS)
+    values = {"tensile_strength": 5e6, "cohesion": 20e6}
+    made = calibration_search._jobs(plan, plan.screen, values, plan.targets)
+    assert len(made) == 4
+    card = scorecard_runs.plan(
+        *(materials.load("augig-calibrated"), "augig-calibrated"),
+        **{
+            "model": None,
+            "shape": None,
+            "seeds": [1],
+            "size": "small",
+            "rock": load_rock("augig", ""),
+        },
+    )
+    names, scored = ("max_strain", "stop_ratio"), card.jobs[1]["confined_30"].inputs
+    confined = made[1, ("biaxial", 36.6e6)].inputs
+    assert [confined[name] for name in names] == [scored[name] for name in names] == [0.03, 0.01]
+    assert made[1, ("uniaxial", 0.0)].inputs["stop_ratio"] == 0.9
+    # options of the test alone come first
+    plan = plan_of(
+        tmp_path, DROPS.replace("[verify]", "[screen.biaxial]\nmax_strain = 0.02\n[verify]")
+    )
+    confined = calibration_search._jobs(plan, plan.screen, values, plan.targets)[
+        1, ("biaxial", 36.6e6)
+    ].inputs
+    assert [confined[name] for name in names] == [0.02, 0.01]
 
 
 def test_crack_thresholds_are_targets_as_parts_of_the_strength(tmp_path):
@@ -223,6 +282,51 @@ def test_the_search_meets_targets_on_the_full_specimen(tmp_path, monkeypatch):
     assert all("met" in text for _, text in table_rows(plan, found))
     picture(tmp_path / "known.png", plan, found)
     assert (tmp_path / "known.png").stat().st_size > 10_000
+
+
+class Brittle(MadeUp):
+    """The drop grows with the cohesion, to more than twice its least value."""
+
+    @classmethod
+    def run(cls, wanted, progress=None):
+        return [{"result": cls.result(dict(job.inputs))} for job in wanted]
+
+    @classmethod
+    def result(cls, inputs):
+        if inputs["test"] == "elastic":
+            return {"youngs_modulus": 25.8e9}
+        peak = cls.peak({**inputs, "test": "uniaxial"})
+        found = {"peak_stress": cls.peak(inputs) if inputs["test"] == "tension" else peak}
+        drop = min(0.9, inputs["set.cohesion"] / 40e6)
+        return found | ({"drop_after_peak": drop} if "confinement" in inputs else {})
+
+
+def test_a_larger_drop_moves_no_key_of_a_search(tmp_path, monkeypatch):
+    monkeypatch.setattr(calibration_search, "Pool", Brittle)
+    text = DROPS.replace('peaks = { "36.6e6" = 350e6 }', "").replace("youngs_modulus = 25.8e9", "")
+    start = {"tensile_strength": 8.5e6, "cohesion": 30e6}
+    bests = []
+    for one in (text, GOOD):
+        found = calibration_search.run(plan_of(tmp_path, one), tmp_path / "out", start=start)
+        assert all(found.met.values()), found.met
+        bests.append(found.best.values)
+    # one target more ends the search sooner
+    assert bests[0] == pytest.approx(bests[1], rel=0.01)
+    # where the targets leave it open, the drop determines no key
+    plan = plan_of(tmp_path, text)
+    free = dataclasses.replace(plan, targets=[t for t in plan.targets if t.least])
+    found = calibration_search.run(free, tmp_path / "out", start=start)
+    assert found.met == {"drop_at_36.6_MPa": True}
+    assert found.verdict.open_keys == ["tensile_strength", "cohesion"]
+    # a drop that is too small pulls its key
+    missed = calibration_search.run(free, tmp_path / "out", start={**start, "cohesion": 5e6})
+    assert missed.met == {"drop_at_36.6_MPa": True}
+    assert missed.best.values["cohesion"] > 0.9 * 0.2 * 40e6
+    assert ("drop at 36.6 MPa", "0.75, target at least 0.2: met") in [
+        (name, text.replace(" ± 0, error of the mean 0", ""))
+        for name, text in table_rows(free, found)
+    ]
+    picture(tmp_path / "drop.png", free, found)
 
 
 #: Stiff grains with compliant contacts, of which contacts and grains share the compliance.

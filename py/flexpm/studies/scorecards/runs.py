@@ -21,7 +21,7 @@ from ...models.options import MODELS
 from ...require import require_known, require_one_of
 from ...results.result import Result
 from ...results.result_checks import FINISHED
-from .. import jobs
+from .. import jobs, past_peak
 from ..jobs import Job
 from . import measures
 from .measures import Ended, Runs
@@ -30,15 +30,9 @@ from .rock import Entry, Rock
 #: Shapes of the compressed specimens.
 SHAPES = ("rectangle", "box", "cylinder")
 _MODELS = ("flexible", "rigid")
-#: Largest axial strain of a run under a confining pressure [-], and the least ratio of it to the
-#: compressive strength over Young's modulus of the rock, by the percentage of the pressure: soft
-#: rocks have their peaks at larger strains.
-MAX_STRAINS = {3: (0.015, 3.0), 10: (0.025, 5.0), 30: (0.03, 6.0), 50: (0.03, 6.0)}
-#: Part of its peak below which the deviator of such a run never falls: it goes to its strain [-].
-_NO_STOP = 0.01
 #: Radius of jaws over the radius of the disc, as suggested by the ISRM [-].
 _JAWS = 1.5
-#: Digits of a confining pressure and of a largest strain.
+#: Digits of a confining pressure.
 _DIGITS = 4
 _LATERAL = "lateral_strain"
 
@@ -147,21 +141,14 @@ class Plan:
             split[JAW_RADIUS] = 0.5 * _JAWS * split["diameter"]
         yield measures.SPLIT, split
         yield measures.NOTCHED, self._inputs(measures.NOTCHED, seed)
+        strength = self.rock.compressive_strength
+        young = self.rock.entries.get("youngs_modulus", Entry()).value
         for percent, share in measures.PRESSURES.items():
-            pressure = float(f"{share * self.rock.compressive_strength:.{_DIGITS}g}")
-            # until its largest strain, so that the descent is recorded
-            ends = {"max_strain": self._end(percent), "stop_ratio": _NO_STOP}
+            pressure = float(f"{share * strength:.{_DIGITS}g}")
+            # the share of a rounded pressure would be another
+            ends = past_peak.ends(share * strength, strength, young)
             inputs = self._inputs("confined", seed) | {"confinement": pressure, **ends}
             yield measures.confined(percent), inputs
-
-    def _end(self, percent: int) -> float:
-        """Return the largest axial strain of the run under a percentage of the strength [-]."""
-        strain, ratio = MAX_STRAINS[percent]
-        young = self.rock.entries.get("youngs_modulus", Entry()).value
-        if young is None:
-            return strain
-        elastic = self.rock.compressive_strength / young
-        return max(strain, float(f"{ratio * elastic:.{_DIGITS}g}"))
 
     def _inputs(self, role: str, seed: int) -> Table:
         """Return the inputs of a test on the specimen that it takes."""
