@@ -8,7 +8,7 @@ verified on other packings of the full specimen. The difference between small an
 corrects the targets of the next round. Strength keys are searched as logarithms.
 
 All runs are jobs of :mod:`flexpm.jobs`: a calibration that was stopped repeats the same search, but
-finds the runs that were finished.
+finds the runs that were finished, also on another machine.
 """
 
 from __future__ import annotations
@@ -39,6 +39,7 @@ from .calibration_losses import loss
 from .calibration_measures import ELASTIC_MEASURES, Run
 from .calibration_problem import Calibration, Runs, Target
 from .calibration_verdict import Verdict, is_met, judge
+from .finished_runs import FinishedRuns
 from .jobs import Job
 from .pool import Pool, PoolOptions
 from .tables import write_table
@@ -134,7 +135,8 @@ def run(
     for runs in (plan.screen, plan.verify):
         _jobs(plan, runs, values, plan.targets)  # refuses what no run could do
     with Pool(folder / "runs", **pool_options) as pool:
-        search = Search(plan, pool, progress or (lambda *_: None))
+        make = FinishedRuns(folder / "runs").job
+        search = Search(plan, pool, progress or (lambda *_: None), make)
         try:
             values |= search.elastic(values)
             best = search.strengths(values)
@@ -177,8 +179,15 @@ def history_table(history: Sequence[Evaluation]) -> pandas.DataFrame:
 class Search:
     """State of a calibration: the round, all tried sets, the pool of runs if it has runs."""
 
-    def __init__(self, plan: Calibration, pool: Pool | None, progress: Progress) -> None:
+    def __init__(
+        self,
+        plan: Calibration,
+        pool: Pool | None,
+        progress: Progress,
+        make: Callable[[Table, Path], Job] = jobs.make,
+    ) -> None:
         self._plan, self._pool, self._progress = plan, pool, progress
+        self._make = make
         self._round = 1
         self._tied: Values = {}
         if plan.of_kind(elastic=False)[1]:
@@ -347,7 +356,7 @@ class Search:
         """Return values of each measure, one per packing, and reasons for missing values."""
         plan = self._plan
         try:
-            wanted = _jobs(plan, runs, values, targets)
+            wanted = _jobs(plan, runs, values, targets, self._make)
         except InputError as error:
             if not self.history:
                 raise  # wrong from the start
@@ -402,7 +411,11 @@ class Search:
 
 
 def _jobs(
-    plan: Calibration, runs: Runs, values: Values, targets: Sequence[Target]
+    plan: Calibration,
+    runs: Runs,
+    values: Values,
+    targets: Sequence[Target],
+    make: Callable[[Table, Path], Job] = jobs.make,
 ) -> dict[tuple[int, Run], Job]:
     """Return the runs that the targets need, by seed and test with its confining pressure [Pa]."""
     material = {} if plan.material is None else {"material": plan.material}
@@ -416,7 +429,7 @@ def _jobs(
         (seed, test): None for t in targets for seed in runs.seeds_of(t) for test in plan.tests(t)
     }
     return {
-        (seed, (test, confinement)): jobs.make(
+        (seed, (test, confinement)): make(
             {
                 **{**common, **keys_of(test), **plan.ends((test, confinement))},
                 **runs.of_test.get(test, {}),

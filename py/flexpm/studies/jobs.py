@@ -52,7 +52,8 @@ NOT_MEASURES = (
 )
 #: Exit codes of a job that would end the same way again.
 _FINAL = (0, 2, 3)
-_OUTCOME = "outcome.json"
+#: File with inputs and measures of a run that has ended.
+OUTCOME = "outcome.json"
 
 
 class Task(Protocol):
@@ -245,7 +246,7 @@ def known(folder: Path, key: str | None = None) -> Table | None:
         key: Key of the job; the outcome of another key does not count. None: any.
     """
     try:
-        outcome: Table = read_json(folder / _OUTCOME)
+        outcome: Table = read_json(folder / OUTCOME)
         whole = outcome["exit_code"] in _FINAL and isinstance(outcome["message"], str)
         whole = whole and isinstance(outcome["result"], dict)
         outcome["result"] = current(outcome["result"])
@@ -300,7 +301,7 @@ def conclude(job: Task, folder: Path, done: CompletedProcess[str] | BaseExceptio
     }
     if done.returncode in _FINAL:
         folder.mkdir(parents=True, exist_ok=True)
-        write_text(folder / _OUTCOME, json_text(outcome))
+        write_text(folder / OUTCOME, json_text(outcome))
         _remove_checkpoint(folder)  # the largest files, of no use any more
     return outcome
 

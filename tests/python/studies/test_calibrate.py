@@ -7,8 +7,10 @@ import dataclasses
 import json
 import math
 import os
+import shutil
 import signal
 from pathlib import Path
+from subprocess import CompletedProcess
 
 import pandas
 import pytest
@@ -29,6 +31,7 @@ from flexpm.studies.scorecards import runs as scorecard_runs
 from flexpm.studies.scorecards.rock import load as load_rock
 
 ROOT = Path(__file__).resolve().parents[3]
+PRESETS = ROOT / "py/flexpm/materials/presets"
 GOOD = """
 [calibration]
 name = "known"
@@ -420,6 +423,65 @@ def test_tied_keys_leave_a_key_to_the_search(tmp_path):
     refusal("must be fewer than the free elastic keys", plan_of, tmp_path, text)
 
 
+class Stored(calibration_search.Pool):
+    """Stores its runs as every pool does; their measures are made up."""
+
+    most = 10_000  #: runs after which the search is interrupted
+    done = 0
+
+    def _ended(self, waiting):
+        for job in waiting:
+            if type(self).done == self.most:
+                raise KeyboardInterrupt
+            type(self).done += 1
+            folder = self._folder / job.folder
+            folder.mkdir(parents=True)
+            result = {"test": job.inputs["test"], "peak_stress": MadeUp.peak(dict(job.inputs))}
+            (folder / "result.json").write_text(json.dumps(result))
+            (folder / "final.vtu").write_text("large")
+            yield job, CompletedProcess((), 0, "", "")
+
+
+def test_a_search_goes_on_elsewhere_from_its_rows(tmp_path, monkeypatch):
+    """The rows are ``outcome.json`` of the runs. The last digits of values may differ there."""
+    text = GOOD.replace("rounds = 2", 'rounds = 2\nmaterial = "granite.toml"')
+    start = {"tensile_strength": 8.5e6, "cohesion": 30e6}
+
+    def searched(folder, most, start):
+        pool = type("_Pool", (Stored,), {"most": most})
+        monkeypatch.setattr(calibration_search, "Pool", pool)
+        folder.mkdir(exist_ok=True)
+        (folder / "granite.toml").write_bytes((PRESETS / "augig-calibrated.toml").read_bytes())
+        return pool, lambda: calibration_search.run(
+            plan_of(folder, text), folder / "out", start=start
+        )
+
+    pool, search = searched(tmp_path / "whole", 10_000, start)
+    whole, runs = search(), pool.done
+    _, search = searched(tmp_path / "here", runs // 2, start)
+    with pytest.raises(KeyboardInterrupt):
+        search()
+    rows = [*(tmp_path / "here").glob("out/runs/*/outcome.json")]
+    assert len(rows) == runs // 2 > 10
+    for row in rows:
+        copy = tmp_path / "there" / row.relative_to(tmp_path / "here")
+        copy.parent.mkdir(parents=True)
+        copy.write_bytes(row.read_bytes())
+    other = {key: math.nextafter(value, math.inf) for key, value in start.items()}
+    pool, search = searched(tmp_path / "there", 10_000, other)
+    found = search()
+    assert pool.done == runs - len(rows)
+    for one, two in zip(found.history, whole.history, strict=True):
+        assert one.values == pytest.approx(two.values, rel=1e-9)
+    assert found.best.values == pytest.approx(whole.best.values, rel=1e-9)
+    # another material has no finished run, though its inputs are the same
+    _, search = searched(tmp_path / "there", 0, start)
+    material = tmp_path / "there" / "granite.toml"
+    material.write_text(material.read_text().replace("friction = 0.", "friction = 0.1"))
+    with pytest.raises(KeyboardInterrupt):
+        search()
+
+
 class NoPeaks(MadeUp):
     """Small discs pass no peak, one of two large ones does not; the last run fails."""
 
@@ -680,13 +742,22 @@ def test_known_parameters_are_recovered_also_after_a_kill(tmp_path, package_pare
     environment = dict(os.environ, PYTHONPATH=str(package_parent))
     killed = captured(self_signals.command(*words, after_runs=12), env=environment)
     assert killed.returncode == -signal.SIGKILL, killed.stderr
-    finished = {file: file.stat().st_mtime_ns for file in out.glob("runs/*/outcome.json")}
+    finished = [*out.glob("runs/*/outcome.json")]
     assert len(finished) == 12
     wait_for(lambda: all(is_free(folder) for folder in out.glob("runs/*")))
+    # it goes on elsewhere, from the rows of the runs alone
+    there = tmp_path / "there"
+    copies = [there / file.relative_to(tmp_path) for file in finished]
+    for file, copy in zip(finished, copies, strict=True):
+        copy.parent.mkdir(parents=True)
+        copy.write_bytes(file.read_bytes())
+    shutil.copy(path, there)
+    written = {file: file.stat().st_mtime_ns for file in copies}
+    words = ["calibrate", str(there / path.name), "--out", str(there / "out")]
     done = captured(["/usr/bin/python3", "-P", "-m", "flexpm", *words], env=environment)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert all(file.stat().st_mtime_ns == at for file, at in finished.items())
-    law = materials.load(out / "synthetic.toml").law()
+    assert all(file.stat().st_mtime_ns == at for file, at in written.items())
+    law = materials.load(there / "out" / "synthetic.toml").law()
     assert {key: law[key] for key in KNOWN} == pytest.approx(KNOWN, rel=0.05)
 
 
