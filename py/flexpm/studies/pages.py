@@ -42,7 +42,7 @@ from .calibration_report import unit_of
 from .calibration_verdict import FILE as VERDICT
 from .jobs import place_of
 from .scorecards.output import FILE as SCORECARD
-from .scorecards.output import HEADER, NOTE, PAIRS, pair_lines
+from .scorecards.output import NOTE, PAIRS, header_of, pair_lines
 from .scorecards.output import PICTURE as BARS
 from .scorecards.verdict import MET, NOT_KNOWN, NOT_MET
 
@@ -234,7 +234,7 @@ def _scorecard(folder: Path) -> Page:
         f"{', '.join(map(str, content['seeds']))}",
         versions=_versions(found),
         status=_box(content),
-        results=Rows("Measures", HEADER, content["table"], NOTE),
+        results=Rows("Measures", header_of(content["table"]), content["table"], NOTE),
         warnings=_shared_warnings(found),
         charts=_curves_by_test(found),
         tables=[*tables, *_about(found)],

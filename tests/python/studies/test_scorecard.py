@@ -24,7 +24,7 @@ from flexpm.results import strength
 from flexpm.results.record import Curve
 from flexpm.results.result import Result
 from flexpm.studies import pages
-from flexpm.studies.scorecards import card, measures, output, runs
+from flexpm.studies.scorecards import card, exponents, measures, output, runs
 from flexpm.studies.scorecards.measures import MEASURES, Ended, Measure, Value
 from flexpm.studies.scorecards.rock import Band, Entry, Rock
 from flexpm.studies.scorecards.rock import load as load_rock
@@ -411,6 +411,31 @@ def test_files_have_all_rows_and_the_page_is_made_from_them(tmp_path, monkeypatc
     assert "17 to 23 (25 to 33)" in text and " (0.4 to 0.6)" in text
     assert len(text.splitlines()) == len(MEASURES) + 5
     assert "no value" in text
+
+
+def test_rows_that_are_not_met_name_the_keys_that_change_them_most(tmp_path):
+    packings = [runs.values_of(granite(), solid=False)]
+    plan = plan_of(seeds=[41])
+    rows = judge_all(packings, plan.rock.entries, full=False)
+    known = exponents.load("flexible", "2D").text("compressive_strength")
+    assert known.startswith("cohesion +0.")
+    keys = dict(zip(MEASURES, output.keys_of(plan, rows), strict=True))
+    assert keys["compressive_strength"] == known  # 100 MPa, and not 122
+    assert {name for name, text in keys.items() if text} <= {
+        row.measure.name for row in rows if row.verdict == NOT_MET
+    }
+    output.write(tmp_path, plan, rows, [])
+    content = json.loads((tmp_path / output.FILE).read_text())
+    assert [one["exponents"] for one in content["rows"]] == [*keys.values()]
+    with (tmp_path / output.TABLE).open() as file:
+        assert [one["exponents"] for one in csv.DictReader(file)] == [*keys.values()]
+    assert known in output.table(plan, rows, []) and output.KEYS in output.table(plan, rows, [])
+    page = pages.write(tmp_path).read_text()
+    assert known in page and output.KEYS in page
+    # no exponents were measured of rigid grains
+    others = plan_of(seeds=[41], model="rigid")
+    assert output.keys_of(others, rows) == [""] * len(rows)
+    assert output.KEYS not in output.table(others, rows, [])
 
 
 def test_charts_name_their_tests_and_say_which_runs_they_leave_out(monkeypatch):

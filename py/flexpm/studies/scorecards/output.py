@@ -10,10 +10,12 @@ import numpy as np
 
 from ..._version import __version__
 from ...files import Table, csv_text, json_text, write_text
+from ...materials.made_for import dimension_of
 from ...report.style import CYCLE, Axes, drawing
 from ...report.tables import columns, scaled
 from ...results.cracks import MODES
 from ...text import label_of, name_of
+from . import exponents
 from .measures import Measure
 from .rock import Band, text_of
 from .runs import Plan
@@ -21,6 +23,8 @@ from .verdict import MET, NOT_KNOWN, NOT_MET, Row
 
 FILE, TABLE, PICTURE = "scorecard.json", "scorecard.csv", "scorecard.png"
 HEADER = ("measure", "rock", "band", "mean", "±", "within", "verdict")
+#: Last column, if exponents of a row are known that is not met.
+KEYS = "exponents of keys"
 NOTE = (
     "*: decides; in parentheses: band of similar rocks, not judged; no value: none in the rock file"
 )
@@ -44,10 +48,32 @@ def shown(measure: Measure) -> tuple[float, str]:
     return (1e-9, "GPa") if measure.name in _GPA else _SHOWN[measure.unit]
 
 
-def lines(rows: Sequence[Row]) -> list[tuple[str, ...]]:
-    """Return the cells of the rows; a band in parentheses is of similar rocks and not judged."""
+def keys_of(plan: Plan, rows: Sequence[Row]) -> list[str]:
+    """Return for each row that is not met the keys that change it most, with their exponents.
+
+    A row has an empty text if it is not known or met, or if no exponents were measured for the
+    model in the dimension of the specimens.
+    """
+    known = exponents.load(plan.model, dimension_of(solid=plan.solid))
+    if known is None:
+        return [""] * len(rows)
+    return [known.text(row.measure.name) if row.verdict == NOT_MET else "" for row in rows]
+
+
+def header_of(cells: Sequence[Sequence[str]]) -> tuple[str, ...]:
+    """Return the header of the rows with or without a column of exponents."""
+    return (*HEADER, KEYS) if any(len(one) > len(HEADER) for one in cells) else HEADER
+
+
+def lines(rows: Sequence[Row], keys: Sequence[str]) -> list[tuple[str, ...]]:
+    """Return the cells of the rows; a band in parentheses is of similar rocks and not judged.
+
+    Args:
+        rows: The rows.
+        keys: Keys that change each row; the column is left out if it is empty.
+    """
     found: list[tuple[str, ...]] = []
-    for row in rows:
+    for row, moving in zip(rows, keys, strict=True):
         factor, unit = shown(row.measure)
         entry = row.entry
         bands = [] if entry.value is None else [text_of(entry.band, factor)]
@@ -62,6 +88,7 @@ def lines(rows: Sequence[Row]) -> list[tuple[str, ...]]:
                 _cell(row.error, factor, 2),
                 within,
                 verdict_text(row),
+                *((moving or "-",) if any(keys) else ()),
             )
         )
     return found
@@ -84,7 +111,8 @@ def table(plan: Plan, rows: Sequence[Row], pairs: Sequence[Table]) -> str:
         f"{name_of(plan.material)}, {plan.model} model, {plan.shape}, {packings}, size "
         f"{plan.size.name}; rock: {name_of(plan.rock.name)}"
     )
-    text = f"{title}\n{columns(HEADER, lines(rows))}"
+    cells = lines(rows, keys_of(plan, rows))
+    text = f"{title}\n{columns(header_of(cells), cells)}"
     text += f"\n  {NOTE}"
     return f"{text}\n{columns(PAIRS, pair_lines(pairs))}" if pairs else text
 
@@ -107,7 +135,8 @@ def pair_lines(pairs: Sequence[Mapping[str, object]]) -> list[tuple[str, ...]]:
 def write(folder: Path, plan: Plan, rows: Sequence[Row], pairs: Sequence[Table]) -> None:
     """Write figure and tables; scorecard.json, by which the folder is known, is the last."""
     picture(folder / PICTURE, plan, rows)
-    write_text(folder / TABLE, _csv(rows))
+    keys = keys_of(plan, rows)
+    write_text(folder / TABLE, _csv(rows, keys))
     jobs = {
         str(seed): {name: job.folder for name, job in runs.items()}
         for seed, runs in plan.jobs.items()
@@ -120,8 +149,8 @@ def write(folder: Path, plan: Plan, rows: Sequence[Row], pairs: Sequence[Table])
         "rock": {name: getattr(plan.rock, name) for name in ("name", "note", "source")},
         **{"not_met": names_of(rows, NOT_MET), "not_known": names_of(rows, NOT_KNOWN)},
         "failed": failed(rows, full=plan.size.full),
-        "rows": [row.as_dict() for row in rows],
-        "table": [list(line) for line in lines(rows)],
+        "rows": [{**row.as_dict(), "exponents": one} for row, one in zip(rows, keys, strict=True)],
+        "table": [list(line) for line in lines(rows, keys)],
         "cracks_by_pair": list(pairs),
         "runs": jobs,
     }
@@ -143,22 +172,22 @@ def failed(rows: Sequence[Row], *, full: bool) -> list[str]:
     return [row.measure.name for row in rows if row.fails(full=full)]
 
 
-def _csv(rows: Sequence[Row]) -> str:
+def _csv(rows: Sequence[Row], keys: Sequence[str]) -> str:
     """One line a measure, SI units."""
     names = (
         *("measure", "unit", "value", "spread", "lower", "upper"),
         *("general_lower", "general_upper", "decides", "mean", "error", "within", "packings"),
-        *("verdict", "reasons"),
+        *("verdict", "reasons", "exponents"),
     )
     cells = []
-    for row in rows:
+    for row, moving in zip(rows, keys, strict=True):
         entry, general = row.entry, row.entry.general or Band()
         cells.append(
             (
                 *(row.measure.name, row.measure.unit, entry.value, entry.spread),
                 *(entry.band.lower, entry.band.upper, general.lower, general.upper),
                 *(str(entry.decides).lower(), row.mean, row.error, row.within, len(row.values)),
-                *(row.verdict, "; ".join(row.reasons)),
+                *(row.verdict, "; ".join(row.reasons), moving),
             )
         )
     return csv_text(names, cells)

@@ -31,7 +31,7 @@ from .rock import Entry, Rock
 SHAPES = ("rectangle", "box", "cylinder")
 _MODELS = ("flexible", "rigid")
 #: Radius of jaws over the radius of the disc, as suggested by the ISRM [-].
-_JAWS = 1.5
+JAWS = 1.5
 #: Digits of a confining pressure.
 _DIGITS = 4
 _LATERAL = "lateral_strain"
@@ -138,7 +138,7 @@ class Plan:
         yield measures.PULLED, self._inputs(measures.PULLED, seed)
         split = self._inputs(measures.SPLIT, seed)
         if self.solid:
-            split[JAW_RADIUS] = 0.5 * _JAWS * split["diameter"]
+            split[JAW_RADIUS] = 0.5 * JAWS * split["diameter"]
         yield measures.SPLIT, split
         yield measures.NOTCHED, self._inputs(measures.NOTCHED, seed)
         strength = self.rock.compressive_strength
@@ -176,14 +176,22 @@ class Plan:
     @property
     def grains(self) -> int:
         """Approximate number of grains of the compressed specimen, by its size and diameters."""
-        spec = next(iter(self.jobs.values()))[measures.COMPRESSED].spec.specimen
-        low, high = spec.diameters or (1.0, 1.0)
-        filled = 1.0 - (spec.porosity or 0.0)
-        if self.solid:
-            mean = (low + high) * (low * low + high * high) / 4.0
-            return round(spec.volume * filled / (math.pi / 6.0 * mean))  # type: ignore[union-attr]
-        mean = (low * low + low * high + high * high) / 3.0
-        return round(math.prod(spec.sizes.values()) * filled / (0.25 * math.pi * mean))
+        return grains_of(next(iter(self.jobs.values()))[measures.COMPRESSED])
+
+
+def grains_of(job: Job) -> int:
+    """Return the approximate number of grains of a run, by the size of its specimen."""
+    spec = job.spec.specimen
+    low, high = spec.diameters or (1.0, 1.0)
+    filled = 1.0 - (spec.porosity or 0.0)
+    if is_solid(spec.kind):
+        mean = (low + high) * (low * low + high * high) / 4.0
+        return round(spec.volume * filled / (math.pi / 6.0 * mean))  # type: ignore[union-attr]
+    mean = (low * low + low * high + high * high) / 3.0
+    area = math.prod(spec.sizes.values())
+    if "diameter" in spec.sizes:
+        area = (0.25 if spec.kind == "disc" else 0.125) * math.pi * spec.sizes["diameter"] ** 2
+    return round(area * filled / (0.25 * math.pi * mean))
 
 
 def plan(

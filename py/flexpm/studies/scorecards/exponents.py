@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Exponents of measures in the keys of a material: d ln(measure) / d ln(key) [-].
+
+``scripts/studies/exponents.py`` has measured them about one material, on small specimens. They hold
+near this material, and near every material that is similar to it: strengths times k, elastic moduli
+and stiffnesses times e, energies times k^2 / e.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...files import Table, load_toml
+
+#: Table that the script has made.
+FILE = Path(__file__).with_name("exponents.toml")
+#: Keys that are named for a measure: at most so many, with exponents from this size on [-] that
+#: exceed their standard error by this factor.
+_MOST, _LEAST, _SIGMAS = 3, 0.1, 2.0
+
+
+@dataclass(frozen=True)
+class Exponent:
+    """Exponent of a measure in a key."""
+
+    value: float
+    error: float | None = None  #: standard error, from the scatter of the packings; None: unknown
+
+    @property
+    def counts(self) -> bool:
+        """Whether the key clearly changes the measure."""
+        return abs(self.value) >= max(_LEAST, _SIGMAS * (self.error or 0.0))
+
+
+@dataclass(frozen=True)
+class Exponents:
+    """Exponents about a material.
+
+    Attributes:
+        model: Name of the model.
+        dimension: Dimension of the specimens: 2D or 3D.
+        step: Relative change of the keys with which they were measured [-].
+        material: Content of the material's file.
+        measures: Measures of the material itself, by their names in a scorecard.
+        of: Exponents by measure and key.
+    """
+
+    model: str
+    dimension: str
+    step: float
+    material: Table
+    measures: Mapping[str, float]
+    of: Mapping[str, Mapping[str, Exponent]]
+
+    def text(self, measure: str) -> str:
+        """Return the keys that change a measure most, with their exponents; empty if none does."""
+        known = [(key, one) for key, one in self.of.get(measure, {}).items() if one.counts]
+        known.sort(key=lambda entry: -abs(entry[1].value))
+        return ", ".join(f"{key} {one.value:+.2f}" for key, one in known[:_MOST])
+
+
+def load(model: str, dimension: str, file: Path = FILE) -> Exponents | None:
+    """Return the exponents of a model in a dimension; None if they were not measured."""
+    if not file.is_file():
+        return None
+    content = load_toml(file, "exponents")
+    if (content["model"], content["dimension"]) != (model, dimension):
+        return None
+    of = {
+        measure: {key: Exponent(*map(float, one)) for key, one in keys.items()}
+        for measure, keys in content["exponents"].items()
+    }
+    measures, material = content["measures"], content["material"]
+    return Exponents(model, dimension, content["step"], material, measures, of)
