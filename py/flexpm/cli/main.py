@@ -24,13 +24,12 @@ from click.shell_completion import shell_complete
 from .._version import __version__
 from ..errors import InputError, SimulationError
 from ..files import json_text, require_writable, write_text
-from ..materials.material import load
-from ..materials.mixing import value_of
 from ..renamed import with_old_keys
 from ..report import tables
 from ..require import nearest
 from ..runs.output import ROSE
 from ..text import name_of
+from . import calibrate as cli_calibrate
 from . import compare as cli_compare
 from . import images as cli_images
 from . import inputs, runs, signals, terminal
@@ -199,53 +198,6 @@ def study(file: Path, out: Path | None, quiet: bool, report: bool, **options: An
         raise SimulationError(f"runs = {len(failed)} of {len(rows)} failed; see the table")
 
 
-@command.command(short_help="Fit a material to a rock.")
-@cli_options.many_runs_options
-def calibrate(file: Path, out: Path | None, quiet: bool, report: bool, **options: Any) -> None:
-    """Find the material that meets the targets of FILE; write it as a preset, with a figure."""
-    from ..studies import (
-        calibration_problem,
-        calibration_report,
-        calibration_search,
-        calibration_verdict,
-        pages,
-    )
-
-    plan = calibration_problem.read(file)
-    start = load(plan.material_file, plan.model, solid=plan.is_solid)
-    values = {key: value_of(start, key, plan.model) for key in plan.free}
-    for key, (low, high) in plan.free.items():
-        value = values[key]
-        if isinstance(value, int | float) and not low <= value <= high:
-            terminal.say(
-                f"{key} = {value:g} in the material, starts at {min(max(value, low), high):g}"
-            )
-    folder = inputs.locked_folder(out or Path(file.stem), "calibrate")
-    calibration_verdict.forget(folder)
-    with terminal.Progress(quiet, unit="sets") as progress:
-        found = calibration_search.run(plan, folder, start=values, progress=progress, **options)
-    preset, picture = folder / f"{plan.name}.toml", folder / "calibration.png"
-    calibration_report.write_preset(preset, start, plan, found)
-    calibration_report.picture(picture, plan, found)
-    found.verdict.write(folder)
-    if report:
-        pages.write(folder)
-    terminal.say(
-        tables.table(
-            calibration_report.table_rows(plan, found), f"{name_of(plan.name)}, {plan.model} model"
-        )
-    )
-    for line in found.verdict.lines():
-        terminal.say(f"  {line}")
-    terminal.say(f"  files  {preset}, {picture}, {folder / 'history.csv'}")
-    missed = [name for name, met in found.met.items() if not met]
-    if missed:
-        raise SimulationError(
-            f"targets = {', '.join(missed)}, not met; see {picture}, and change the targets or "
-            "free more keys"
-        )
-
-
 @command.command(short_help="Rebuild report.html from the files of a run.")
 @click.argument("folder", type=click.Path(path_type=Path), metavar="DIR")
 def report(folder: Path) -> None:
@@ -277,7 +229,10 @@ def doctor(ctx: click.Context) -> None:
     ctx.exit(0 if sound else 1)
 
 
-for _one in (cli_compare.compare, cli_scorecard.scorecard, runs.run, runs.rerun, runs.elastic):
+for _one in (
+    *(cli_compare.compare, cli_calibrate.calibrate, cli_scorecard.scorecard),
+    *(runs.run, runs.rerun, runs.elastic),
+):
     command.add_command(_one)
 
 

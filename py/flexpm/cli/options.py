@@ -290,15 +290,15 @@ pool_options = combined(
         help="Start workers by this batch system: slurm, pbs, oar, ... (needs dask-jobqueue).",
     ),
 )
+many_runs_out_option = click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Folder for the files.  [default: the name of FILE without .toml, in the working folder]",
+)
 many_runs_options = combined(
     click.argument("file", type=click.Path(path_type=Path), metavar="FILE"),
-    click.option(
-        "--out",
-        type=click.Path(path_type=Path),
-        metavar="DIR",
-        help="Folder for the files.  [default: the name of FILE without .toml, in the working "
-        "folder]",
-    ),
+    many_runs_out_option,
     pool_options,
     report_option,
     quiet_option,

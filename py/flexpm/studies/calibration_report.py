@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -21,6 +22,8 @@ from .calibration_measures import ELASTIC_MEASURES, QUOTIENTS, is_stress, keys_o
 from .calibration_problem import Calibration
 from .calibration_search import Evaluation, Outcome
 
+#: A list of numbers or words on several lines of TOML.
+_LIST = re.compile(r"(?<== )\[\n(?:    [^\n{]*,\n)+\]")
 #: Digits of the values in a preset.
 _DIGITS = 4
 #: Units by the key of result.json, or of a measure that no single test tells; others are stresses.
@@ -84,25 +87,41 @@ def write_preset(path: Path, start: Material, plan: Calibration, outcome: Outcom
     assignments = [f"{key}={rounded(value)!r}" for key, value in outcome.best.values.items()]
     found = start.with_set(assignments, plan.model)
     found = dataclasses.replace(found, name=plan.name, made_for=plan.made_for)
-    content = _without_none(dataclasses.asdict(found))
+    notes = [f"# {name}: {text}" for name, text in table_rows(plan, outcome)]
+    head = ["# SPDX-License-Identifier: GPL-3.0-or-later", *_tested_on(plan), *notes]
+    write_text(path, "\n".join(head) + "\n\n" + toml_text(content_of(found, plan.model)))
+    return load_material(path)
+
+
+def content_of(material: Material, model: str) -> Table:
+    """Return the content of the file of a material, with the elastic set of one model."""
+    content = _without_none(dataclasses.asdict(material))
     kinds, joints, pairs = (content.pop(key) for key in ("minerals", "joints", "interfaces"))
     # other models' sets are those of the rock that the search started from
-    content["elastic"] = _only_of(plan.model, content["elastic"])
+    content["elastic"] = _only_of(model, content["elastic"])
     if joints:
         content["joint"] = {one.pop("name"): _without_none(one) for one in map(dict, joints)}
     if kinds:
         content["mineral"] = [kind | kind.pop("changes") for kind in map(dict, kinds)]
         for kind in content["mineral"]:
             if "elastic" in kind:
-                kind["elastic"] = _only_of(plan.model, kind["elastic"])
+                kind["elastic"] = _only_of(model, kind["elastic"])
     if pairs:
         content["interface"] = [
             {"pair": list(one["pair"]), **one["values"], "factor": one["factors"]} for one in pairs
         ]
-    notes = [f"# {name}: {text}" for name, text in table_rows(plan, outcome)]
-    head = ["# SPDX-License-Identifier: GPL-3.0-or-later", *_tested_on(plan), *notes]
-    write_text(path, "\n".join(head) + "\n\n" + tomli_w.dumps(content))
-    return load_material(path)
+    return content
+
+
+def toml_text(content: Table) -> str:
+    """Return tables as TOML, each list of numbers or words in one line."""
+    return _LIST.sub(_in_a_line, tomli_w.dumps(content))
+
+
+def _in_a_line(found: re.Match[str]) -> str:
+    """Return a list of TOML in one line."""
+    entries = found[0].strip("[]").split(",\n")
+    return f"[{', '.join(one.strip() for one in entries if one.strip())}]"
 
 
 def _tested_on(plan: Calibration) -> list[str]:

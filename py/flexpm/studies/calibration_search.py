@@ -59,7 +59,7 @@ _ELASTIC_STEP = 0.01
 _ELASTIC_SLOPE = 0.1
 
 #: Steps of the elastic fit, each with a set for each key, as a calibration usually has.
-_ELASTIC_FITS = 3
+ELASTIC_FITS = 3
 
 Values = dict[str, float]
 #: By measure one value a packing; None: it has none.
@@ -133,7 +133,7 @@ def run(
     folder = output_folder(out)
     values = {key: started(plan, key, start) for key in plan.free}
     for runs in (plan.screen, plan.verify):
-        _jobs(plan, runs, values, plan.targets)  # refuses what no run could do
+        jobs_of(plan, runs, values, plan.targets)  # refuses what no run could do
     with Pool(folder / "runs", **pool_options) as pool:
         make = FinishedRuns(folder / "runs").job
         search = Search(plan, pool, progress or (lambda *_: None), make)
@@ -356,7 +356,7 @@ class Search:
         """Return values of each measure, one per packing, and reasons for missing values."""
         plan = self._plan
         try:
-            wanted = _jobs(plan, runs, values, targets, self._make)
+            wanted = jobs_of(plan, runs, values, targets, self._make)
         except InputError as error:
             if not self.history:
                 raise  # wrong from the start
@@ -388,7 +388,7 @@ class Search:
         targets, keys = plan.of_kind(elastic=False)
         if not (keys and targets):
             return self._elastic_sets() + 1
-        tied = 1 + (_ELASTIC_FITS * (1 + len(plan.tied)) if plan.tied else 0)
+        tied = 1 + (ELASTIC_FITS * (1 + len(plan.tied)) if plan.tied else 0)
         sets = tied * (plan.evaluations + plan.candidates)
         return self._elastic_sets() + plan.rounds * (1 + sets)
 
@@ -397,7 +397,7 @@ class Search:
         keys = self._plan.of_kind(elastic=True)[1]
         tried = sum(1 for _ in itertools.takewhile(lambda e: e.stage == "elastic", self.history))
         over = tried < len(self.history)
-        return tried if over or not keys else max(tried + 1, _ELASTIC_FITS * (len(keys) + 1))
+        return tried if over or not keys else max(tried + 1, ELASTIC_FITS * (len(keys) + 1))
 
     @staticmethod
     def _residuals(evaluation: Evaluation, targets: Sequence[Target]) -> FloatArray:
@@ -410,7 +410,7 @@ class Search:
         )
 
 
-def _jobs(
+def jobs_of(
     plan: Calibration,
     runs: Runs,
     values: Values,

@@ -182,7 +182,7 @@ def test_runs_of_a_drop_go_on_as_those_of_a_scorecard(tmp_path):
     """36.6 MPa is 0.3 of the strength; the peak follows from the same run."""
     plan = plan_of(tmp_path, DROPS)
     values = {"tensile_strength": 5e6, "cohesion": 20e6}
-    made = calibration_search._jobs(plan, plan.screen, values, plan.targets)
+    made = calibration_search.jobs_of(plan, plan.screen, values, plan.targets)
     assert len(made) == 4
     card = scorecard_runs.plan(
         *(materials.load("augig-calibrated"), "augig-calibrated"),
@@ -202,7 +202,7 @@ def test_runs_of_a_drop_go_on_as_those_of_a_scorecard(tmp_path):
     plan = plan_of(
         tmp_path, DROPS.replace("[verify]", "[screen.biaxial]\nmax_strain = 0.02\n[verify]")
     )
-    confined = calibration_search._jobs(plan, plan.screen, values, plan.targets)[
+    confined = calibration_search.jobs_of(plan, plan.screen, values, plan.targets)[
         1, ("biaxial", 36.6e6)
     ].inputs
     assert [confined[name] for name in names] == [0.02, 0.01]
@@ -577,7 +577,7 @@ def test_an_elastic_solve_serves_all_strengths(tmp_path):
     keys = []
     for strength in (5e6, 6e6):
         values["tensile_strength"] = strength
-        made = calibration_search._jobs(plan, plan.screen, values, plan.targets)
+        made = calibration_search.jobs_of(plan, plan.screen, values, plan.targets)
         keys.append({test: job.key for (_, (test, _)), job in made.items()})
     assert keys[0]["elastic"] == keys[1]["elastic"]
     assert keys[0]["uniaxial"] != keys[1]["uniaxial"]

@@ -220,7 +220,7 @@ def test_fracture_toughness_is_a_target_with_options_of_its_own_test(tmp_path):
     assert plan.tests(target) == [("scb", 0.0)]
     assert plan.measure(target, {("scb", 0.0): {"fracture_toughness": 1.1e6}}) == 1.1e6
     values = {"tensile_strength": 8e6, "cohesion": 30e6}
-    job = calibration_search._jobs(plan, plan.screen, values, plan.targets)[(1, ("scb", 0.0))]
+    job = calibration_search.jobs_of(plan, plan.screen, values, plan.targets)[(1, ("scb", 0.0))]
     assert (job.inputs["diameter"], job.spec.notch) == (0.03, 0.006)
     assert calibration_measures.tests_of("beam_toughness") == ("bending",)
     refusal("scb key", plan_of, tmp_path, text.replace("notch =", "noch ="))
