@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 from refusals import refusal, refused_command
 
@@ -15,8 +16,9 @@ from flexpm.cli import main as cli
 from flexpm.dimensions import is_solid
 from flexpm.materials.material import Material
 from flexpm.studies import calibration_problem
+from flexpm.studies.pool import Pool
 from flexpm.studies.proposals import aims, beginning, written
-from flexpm.studies.scorecards import exponents, measures
+from flexpm.studies.scorecards import measures, runs
 from flexpm.studies.scorecards import rock as rocks
 from flexpm.studies.scorecards.exponents import Exponent, Exponents
 
@@ -302,36 +304,56 @@ def test_a_drop_that_is_large_enough_takes_no_step(tmp_path):
     assert steps[0] == 1.0 and steps[1] == pytest.approx(0.15 / 0.2, rel=0.03)
 
 
-# Exponents that were measured
+# Materials that are drawn
 
 
-def test_measured_exponents_keep_stresses_similar():
-    """Strengths times k and energies times k^2 multiply stresses by k, and leave quotients."""
-    table = exponents.load("flexible", "2D")
-    assert table is not None and exponents.load("rigid", "2D") is None
-    weights = {
-        **dict.fromkeys(("tensile_strength", "cohesion"), 1.0),
-        **dict.fromkeys(("tensile_fracture_energy", "shear_fracture_energy"), 2.0),
+#: Measures of drawn materials, and the runs that tell them.
+DRAWN = (
+    *("youngs_modulus", "poissons_ratio", "compressive_strength", "crack_initiation"),
+    *("direct_tensile_strength", "indirect_tensile_strength"),
+)
+RUNS = (measures.SOLVED, measures.COMPRESSED, measures.PULLED, measures.SPLIT)
+
+
+def measured(material: Path, folder: Path) -> dict[str, float]:
+    """Measures of a material on a small packing of a scorecard."""
+    plan = runs.plan(
+        *(materials.load(material), str(material)),
+        **{"model": "flexible", "shape": "rectangle", "seeds": [1], "size": "small"},
+        rock=rocks.load("augig", ""),
+    )
+    wanted = [plan.jobs[1][name] for name in RUNS]
+    with Pool(folder, workers=1) as pool:
+        outcomes = pool.run(wanted)
+    ended = {
+        name: runs.ended(outcome, folder / job.folder)
+        for name, outcome, job in zip(RUNS, outcomes, wanted, strict=True)
     }
-    names = ("compressive_strength", "direct_tensile_strength", "indirect_tensile_strength")
-    for name in (*names, "direct_indirect_ratio", "compressive_indirect_ratio"):
-        found = sum(weight * table.of[name][key].value for key, weight in weights.items())
-        assert found == pytest.approx(1.0 if name in names else 0.0, abs=0.15), name
-    assert {*table.of} <= {*measures.MEASURES}
-    assert Material.from_dict(table.material).weibull == table.material["weibull"]
+    found = runs.values_of(ended, solid=False)
+    return {name: found[name].number for name in DRAWN}
 
 
-def test_keys_are_named_by_the_size_of_their_exponents():
-    of = {
-        "cohesion": Exponent(0.6, 0.1),
-        "friction": Exponent(-0.7, 0.1),
-        "weibull": Exponent(0.3, 0.2),  # within its scatter
-        "normal_stiffness": Exponent(0.05, 0.001),  # too small
-        "tensile_strength": Exponent(0.2),
-    }
-    table = known(of={"drop_30": of})
-    assert table.text("drop_30") == "friction -0.70, cohesion +0.60, tensile_strength +0.20"
-    assert table.text("drop_50") == ""
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_drawn_materials_start_near_their_own_results(tmp_path, seed):
+    """Strengths of 0.4 to 1.4, moduli of 0.6 to 1.3, each key within 20 % of the similar one."""
+    drawn = np.random.default_rng(seed)
+    source = beginning.origin("2D", "flexible")
+    k, e = drawn.uniform(0.4, 1.4), drawn.uniform(0.6, 1.3)
+    values = beginning.similar(source.material, "flexible", k, e)
+    for key in ("tensile_strength", "cohesion", "friction", "tensile_fracture_energy"):
+        values[key] *= drawn.uniform(0.8, 1.2)
+    start = beginning.Start(source, values, (k, e), {})
+    (tmp_path / "drawn.toml").write_text(written._material("drawn", "flexible", start))
+    rock = measured(tmp_path / "drawn.toml", tmp_path / "drawn")
+    text = "".join(
+        f'[{name}]\nvalue = {value}\nlower = {0.9 * value}\nsource = "s"\ndecides = true\n'
+        for name, value in rock.items()
+    )
+    made = written.write(rock_of(tmp_path, text), tmp_path / "new.toml")
+    found = measured(made.files[1], tmp_path / "start")
+    ratios = {name: found[name] / rock[name] for name in DRAWN}
+    assert ratios == pytest.approx(dict.fromkeys(DRAWN, 1.0), abs=0.25), (k, e, made.start.steps)
 
 
 # The command
@@ -351,6 +373,12 @@ def test_the_command_tells_targets_start_and_runs(tmp_path, capsys, monkeypatch)
         "mine-start.toml",
     ):
         assert text in said
+    assert "no youngs_modulus" not in said
+    rock_of(tmp_path, ALL[: ALL.index("[youngs_modulus]")] + ALL[ALL.index("[poissons_ratio]") :])
+    assert cli.main(["calibrate", "--new", str(rock), "--out", str(tmp_path / "soft.toml")]) == 0
+    said = capsys.readouterr().out
+    assert "the rock file has no youngs_modulus" in said and "moduli times 1, " in said
+    rock_of(tmp_path)
     # the friction angle of the table is far from that of the rock
     far = known(measures={**MEASURED, "friction_angle_wide": 40.0})
     far.of["friction_angle_wide"] = {"friction": Exponent(0.3)}

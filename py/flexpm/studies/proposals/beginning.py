@@ -19,10 +19,11 @@ from ...materials.keys import ELASTIC_KEYS, ENERGY_KEYS, elastic_set_name
 from ...materials.material import Material
 from ...materials.material import load as load_material
 from ...materials.references import reference_of
+from ..calibration_measures import ELASTIC_MEASURES
 from ..scorecards import exponents
 from ..scorecards.exponents import Exponents
 from ..scorecards.measures import MEASURES
-from ..scorecards.rock import Rock
+from ..scorecards.rock import Entry, Rock
 from .aims import Aim, rounded
 
 #: Calibrated presets by dimension and model.
@@ -32,7 +33,8 @@ _PRESETS = {
     ("3D", "flexible"): "augig3d-calibrated",
     ("3D", "rigid"): "augig3d-calibrated-rigid",
 }
-_STRENGTHS = ("tensile_strength", "cohesion")
+#: Elastic keys that scale with Young's modulus.
+_SCALED = ("young", "normal_stiffness")
 _MODULUS, _STRENGTH = "youngs_modulus", "compressive_strength"
 #: Largest factor on a key of the step by exponents, and change of a key that costs as much as a
 #: deviation from a target by its tolerance, as logarithms.
@@ -93,14 +95,13 @@ def start(
     Args:
         source: A material that was measured.
         model: Name of the model.
-        rock: The rock.
+        rock: The rock; moduli stay if it has no Young's modulus.
         aims: Targets.
         keys: Keys that the step by exponents may change.
     """
     k = rock.compressive_strength / source.measures[_STRENGTH]
-    young = rock.entries.get(_MODULUS)
-    known = young is not None and young.value is not None
-    e = young.value / source.measures[_MODULUS] if known else 1.0  # type: ignore[union-attr,operator]
+    young = rock.entries.get(_MODULUS, Entry()).value
+    e = 1.0 if young is None else young / source.measures[_MODULUS]
     values = similar(source.material, model, k, e)
     steps = {} if source.exponents is None else _steps(source.exponents, (k, e), aims, keys)
     for key, factor in steps.items():
@@ -123,10 +124,6 @@ def similar(material: Material, model: str, k: float, e: float) -> dict[str, flo
     return {key: one for key, one in values.items() if one}
 
 
-#: Elastic keys that are moduli.
-_SCALED = ("young", "normal_stiffness")
-
-
 def expected(measure: str, value: float, factors: tuple[float, float]) -> float:
     """Return a measure of a similar material from that of the material itself."""
     k, e = factors
@@ -147,7 +144,8 @@ def _steps(
     for aim in aims:
         name = aim.measure
         of = known.of.get(name, {})
-        if not any(key in of for key in keys):
+        # the elastic keys meet the elastic targets whatever the other keys are
+        if name in ELASTIC_MEASURES or not any(key in of for key in keys):
             continue
         found = expected(name, known.measures[name], factors)
         if found <= 0.0 or (aim.target.least and found >= aim.measured):

@@ -87,6 +87,7 @@ class Proposal:
         aims: Targets and measures that are none.
         start: Material from which it begins.
         cost: Most runs.
+        modulus_known: Whether the rock file has Young's modulus.
         files: The file of the calibration, and that of the start.
     """
 
@@ -94,6 +95,7 @@ class Proposal:
     aims: Aims
     start: Start
     cost: Cost
+    modulus_known: bool
     files: tuple[Path, Path]
 
 
@@ -139,7 +141,9 @@ def write(
     write_text(first, _material(f"{file.stem}-start", model, start))
     write_text(file, content)
     plan = calibration_problem.read(file)
-    return Proposal(plan, aims, start, cost(plan, start.values), (file, first))
+    young = found.entries.get("youngs_modulus")
+    known = young is not None and young.value is not None
+    return Proposal(plan, aims, start, cost(plan, start.values), known, (file, first))
 
 
 def _free(aims: Aims, model: str, *, hard: bool) -> tuple[list[str], list[str]]:
@@ -308,6 +312,8 @@ def lines(made: Proposal) -> Iterator[str]:
     k, e = start.factors
     similar = f"strengths times {k:.3g}, moduli times {e:.3g}, energies times {k * k / e:.3g}"
     yield f"  start    {source.material.name}: {similar}"
+    if not made.modulus_known:
+        yield "  the rock file has no youngs_modulus: moduli are those of this material"
     if source.exponents is None:
         yield "  exponents of the measures were not measured for this model in this dimension"
     else:

@@ -61,11 +61,9 @@ class Exponents:
         return ", ".join(f"{key} {one.value:+.2f}" for key, one in known[:_MOST])
 
 
-def load(model: str, dimension: str, file: Path = FILE) -> Exponents | None:
+def load(model: str, dimension: str) -> Exponents | None:
     """Return the exponents of a model in a dimension; None if they were not measured."""
-    if not file.is_file():
-        return None
-    content = load_toml(file, "exponents")
+    content = load_toml(FILE, "exponents")
     if (content["model"], content["dimension"]) != (model, dimension):
         return None
     of = {
