@@ -132,26 +132,38 @@ def expected(measure: str, value: float, factors: tuple[float, float]) -> float:
     return value * k if MEASURES[measure].unit.startswith("Pa") else value
 
 
+def without_exponents(known: Exponents, aims: Sequence[Aim], keys: Sequence[str]) -> list[str]:
+    """Return the measures that the step leaves out, as exponents of some keys are missing."""
+    used = [key for key in keys if key in _measured(known)]
+    names = [aim.measure for aim in aims if aim.measure not in ELASTIC_MEASURES]
+    return [name for name in names if not all(key in known.of.get(name, {}) for key in used)]
+
+
+def _measured(known: Exponents) -> set[str]:
+    """Return the keys whose exponents were measured in more than the elastic solution."""
+    return {key for name, of in known.of.items() if name not in ELASTIC_MEASURES for key in of}
+
+
 def _steps(
     known: Exponents, factors: tuple[float, float], aims: Sequence[Aim], keys: Sequence[str]
 ) -> dict[str, float]:
     """Return factors on keys that bring the measures to their targets, by linear least squares.
 
-    Of several changes that do so about equally well it is the smallest one. A key whose exponent
-    was not measured is taken to leave the measure as it is.
+    Of several changes that do so about equally well it is the smallest one. The elastic targets
+    take no part, since the elastic keys meet them whatever the other keys are.
     """
+    keys = [key for key in keys if key in _measured(known)]
     rows, wanted = [], []
     for aim in aims:
         name = aim.measure
         of = known.of.get(name, {})
-        # the elastic keys meet the elastic targets whatever the other keys are
-        if name in ELASTIC_MEASURES or not any(key in of for key in keys):
+        if name in ELASTIC_MEASURES or not all(key in of for key in keys):
             continue
         found = expected(name, known.measures[name], factors)
         if found <= 0.0 or (aim.target.least and found >= aim.measured):
             continue
         tolerance = max(aim.target.tolerance, _TOLERANCE)
-        rows.append([of[key].value / tolerance if key in of else 0.0 for key in keys])
+        rows.append([of[key].value / tolerance for key in keys])
         wanted.append(math.log(aim.measured / found) / tolerance)
     if not rows:
         return {}

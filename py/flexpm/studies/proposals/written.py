@@ -319,6 +319,10 @@ def lines(made: Proposal) -> Iterator[str]:
     else:
         shown = ", ".join(f"{key} times {one:.3g}" for key, one in start.steps.items())
         yield f"  by exponents  {shown or 'no change'}"
+        free = [key for key in plan.free if key not in plan.of_kind(elastic=True)[1]]
+        left_out = beginning.without_exponents(source.exponents, made.aims.found, free)
+        if left_out:
+            yield f"  without exponents  {', '.join(left_out)}"
         step = source.exponents.step
         beyond = [key for key, one in start.steps.items() if not 1 - step <= one <= 1 + step]
         if beyond:
