@@ -299,6 +299,14 @@ def test_a_measure_without_some_exponent_takes_no_part_in_the_step(tmp_path):
     ]
 
 
+def test_an_exponent_within_its_scatter_takes_no_step(tmp_path):
+    of = {name: dict(keys) for name, keys in known().of.items()}
+    whole = started(tmp_path, 5.2e6, known(of=of)).steps
+    of["friction_angle_low"] = {key: Exponent(-2.0, 1.5) for key in KEYS}
+    found = started(tmp_path, 5.2e6, known(of=of)).steps
+    assert abs(found["friction"] - 1.0) < 0.5 * abs(whole["friction"] - 1.0)
+
+
 def test_a_drop_that_is_large_enough_takes_no_step(tmp_path):
     text = ROCK.format(4.8e6, 5e6) + "[drop_30]\nvalue = 0.2\nlower = {}\ndecides = true\n"
     steps = []

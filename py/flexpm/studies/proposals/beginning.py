@@ -149,8 +149,9 @@ def _steps(
 ) -> dict[str, float]:
     """Return factors on keys that bring the measures to their targets, by linear least squares.
 
-    Of several changes that do so about equally well it is the smallest one. The elastic targets
-    take no part, since the elastic keys meet them whatever the other keys are.
+    Of several changes that do so about equally well it is the smallest one. Exponents within their
+    scatter count as 0. The elastic targets take no part, since the elastic keys meet them whatever
+    the other keys are.
     """
     keys = [key for key in keys if key in _measured(known)]
     rows, wanted = [], []
@@ -163,7 +164,7 @@ def _steps(
         if found <= 0.0 or (aim.target.least and found >= aim.measured):
             continue
         tolerance = max(aim.target.tolerance, _TOLERANCE)
-        rows.append([of[key].value / tolerance for key in keys])
+        rows.append([of[key].clear / tolerance for key in keys])
         wanted.append(math.log(aim.measured / found) / tolerance)
     if not rows:
         return {}

@@ -29,9 +29,9 @@ class Exponent:
     error: float | None = None  #: standard error, from the scatter of the packings; None: unknown
 
     @property
-    def counts(self) -> bool:
-        """Whether the key clearly changes the measure."""
-        return abs(self.value) >= max(_LEAST, _SIGMAS * (self.error or 0.0))
+    def clear(self) -> float:
+        """The exponent, 0 within its scatter."""
+        return self.value if abs(self.value) >= _SIGMAS * (self.error or 0.0) else 0.0
 
 
 @dataclass(frozen=True)
@@ -56,9 +56,11 @@ class Exponents:
 
     def text(self, measure: str) -> str:
         """Return the keys that change a measure most, with their exponents; empty if none does."""
-        known = [(key, one) for key, one in self.of.get(measure, {}).items() if one.counts]
-        known.sort(key=lambda entry: -abs(entry[1].value))
-        return ", ".join(f"{key} {one.value:+.2f}" for key, one in known[:_MOST])
+        known = [(key, one.clear) for key, one in self.of.get(measure, {}).items()]
+        known = sorted(
+            (one for one in known if abs(one[1]) >= _LEAST), key=lambda one: -abs(one[1])
+        )
+        return ", ".join(f"{key} {value:+.2f}" for key, value in known[:_MOST])
 
 
 def load(model: str, dimension: str) -> Exponents | None:
