@@ -143,7 +143,8 @@ def describe(made: SolidSpecimen, folder: Path, source: Table | None = None) -> 
     write_solid_vtu(folder / "specimen.vtu", shape)
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     picture = folder / "specimen.png"
-    outside_picture(picture, cells.vertices, made.outer_polygons(), outer, caption)
+    shown = outer if made.minerals is None else made.minerals[outer]
+    outside_picture(picture, cells.vertices, made.outer_polygons(), shown, caption)
     terminal.say(tables.statistics_table(found))
     names = ("specimen.png", "specimen.json", "solid.json", "specimen.vtu")
     terminal.say(f"  files  {', '.join(str(folder / name) for name in names)}")

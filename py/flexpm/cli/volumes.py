@@ -6,6 +6,7 @@ SI units.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,9 +14,9 @@ import click
 
 from ..errors import InputError
 from ..files import Table, csv_text, write_text
+from ..report import tables
 from ..require import POSITIVE, Bounds
 from ..specimens.space.spec import SHORT_EDGE
-from ..text import words_of
 from . import inputs, solids, terminal
 from . import options as cli_options
 from .parameters import Count, Name, Quantity, Several, Window
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
 
 #: Grains that the command names; volume.csv has all.
 _MOST_NAMED = 8
+#: Agreement from which nothing is said of a start that no fit has improved [-].
+_GOOD = 0.9
+_ZERO = 'label 0 is rock; if it is none, give a file with 0 = "hole" by --phases'
 _short_edge = click.option(
     "--short-edge",
     type=Quantity("", Bounds(at_least=0.0, below=0.5)),
@@ -120,7 +124,7 @@ _unit = click.option(
     default="fitted",
     metavar="fitted|exact",
     show_default=True,
-    help="exact: cells have the volumes of their grains, and agree with fewer voxels.",
+    help="exact: cells have the volumes of their grains before short edges are collapsed.",
 )
 @_short_edge
 @cli_options.out_option
@@ -150,13 +154,12 @@ def volume(file: Path, out: Path, quiet: bool, **options: Any) -> None:
             kinds = volume_minerals.kinds_of_minerals(minerals, read, reading, phases)
         elif phases is not None:
             kinds = volume_minerals.kinds_of_file(phases, read, labels)
-        elif labels == "phases":
-            kinds = volume_minerals.kinds_of_phases(read)
         else:
-            kinds = made_of.kinds_of(read, None)
+            kinds = volume_minerals.kinds_of(read, None, labels)
         made = made_of.specimen_of(read, kinds, chosen, progress)
     inputs.tell_lengths(made.extent, (made.mean_diameter,))
-    _describe(made, read.source, folder)
+    zero = 0 in read.ids and 0 not in kinds.pores
+    _describe(made, read.source, folder, [_ZERO] if zero else [])
 
 
 @click.command()
@@ -183,14 +186,19 @@ def table(file: Path, out: Path, quiet: bool, **options: Any) -> None:
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
         inputs.load_yade()
-        from ..specimens.specimen import Specimen
+        from ..specimens.volumes import grain_table
 
-        made = Specimen.from_grain_table(file, **options, progress=progress)
+        given = grain_table.read(file, options.pop("unit"))
+        short_edge = options.pop("short_edge")
+        made = grain_table.specimen_of(given, options, short_edge, progress)
     inputs.tell_lengths(made.extent, (made.mean_diameter,))
-    solids.describe(made, folder)
+    off = grain_table.centroid_error(made, given)
+    solids.describe(made, folder, {"centroid_error": off})
+    share = off / made.mean_diameter
+    terminal.say(f"  centroids are {100 * share:.2g} % of the mean diameter off, root mean square")
 
 
-def _describe(made: SolidSpecimen, source: str, folder: Path) -> None:
+def _describe(made: SolidSpecimen, source: str, folder: Path, notes: list[str]) -> None:
     """Write and print the comparison with the volume, besides the files of any solid."""
     from ..report.volume_sections import volume_picture
 
@@ -200,37 +208,64 @@ def _describe(made: SolidSpecimen, source: str, folder: Path) -> None:
     write_text(folder / "volume.csv", csv_text(report.columns, rows))
     volume_picture(folder / "volume.png", report)
     solids.describe(made, folder, {"volume": {"source": source, **report.totals}})
-    for line in _warnings(made, report):
-        terminal.say(f"  {line}")
+    terminal.say(tables.table(_figures(report.totals, made.mineral_names)))
+    for line in notes + _notes(made, report):
+        terminal.say(f"  note: {line}")
     if made.mineral_names:
         terminal.say(f"  minerals of the material, in this order: {', '.join(made.mineral_names)}")
     terminal.say(f"  files  {folder / 'volume.png'}, {folder / 'volume.csv'}")
 
 
-def _warnings(made: SolidSpecimen, report: VolumeReport) -> list[str]:
+def _figures(totals: Table, names: Sequence[str]) -> list[tuple[str, str]]:
+    """Return the figures that are compared with the volume."""
+
+    def shares(made: float, source: float) -> str:
+        return f"{100 * made:.2f} %, of the voxels {100 * source:.2f} %"
+
+    counts = " x ".join(map(str, totals["voxels"]))
+    sizes = " x ".join(f"{1e3 * size:.4g}" for size in totals["voxel_size"])
+    rows = [
+        ("voxels along x, y, z", f"{counts}, each {sizes} mm"),
+        ("voxels in the cell of their grain", f"{100 * totals['agreement']:.2f} %"),
+        ("pores", shares(totals["pore_fraction"], totals["source_pore_fraction"])),
+    ]
+    for at, name in enumerate(names):
+        made, source = (totals[f"{key}mineral_fractions"][at] for key in ("", "source_"))
+        rows.append((name, shares(made, source)))
+    return rows
+
+
+def _notes(made: SolidSpecimen, report: VolumeReport) -> list[str]:
     from ..laboratory.forecast import SOFT, softness
 
     lines = []
     totals = report.totals
+    if totals["stage"] == "start" and totals["agreement"] < _GOOD:
+        lines.append("the fit found no better cells than its start: check the axes and the labels")
     if poor := report.poor_grains:
         lines.append(
-            f"{len(poor)} grains agree with their cells in less than 80 % of their voxels, since "
-            f"they are far from convex: {_named(poor)}"
+            f"grains of which less than 80 % of the voxels are in the cell: {len(poor)}, in rows "
+            f"{_named(poor)} of volume.csv, because they are small or far from convex"
         )
     if lost := totals["lost_grains"]:
-        lines.append(f"{len(lost)} grains have no cell: {_named(lost)}")
-    for name in ("small_regions", "small_pores", "loose_grains"):
+        lines.append(f"grains without a cell: {len(lost)}, in rows {_named(lost)} of volume.csv")
+    for name, what in (
+        ("small_regions", "regions of fewer voxels than --least-voxels, merged with a neighbour"),
+        ("small_pores", "pores of fewer voxels than --least-voxels, filled"),
+        ("loose_grains", "grains that are not connected with the rest, removed"),
+        ("grains_left_out", "grains of which the cells leave too little, left out"),
+    ):
         if number := totals[name]:
-            lines.append(f"{words_of(name)}: {number}, see doc/volumes")
+            lines.append(f"{what}: {number}")
     soft = softness(made)
     if soft > SOFT:
         lines.append(
             f"contacts of the default material are {soft:.2g} times as compliant as grains of "
-            "this size: use Material.at_grain_size"
+            "this size: give normal_stiffness and fracture energies for it"
         )
     return lines
 
 
-def _named(labels: list[int]) -> str:
-    shown = ", ".join(map(str, labels[:_MOST_NAMED]))
-    return shown + (", ..." if len(labels) > _MOST_NAMED else "")
+def _named(rows: list[int]) -> str:
+    shown = ", ".join(map(str, rows[:_MOST_NAMED]))
+    return shown + (", ..." if len(rows) > _MOST_NAMED else "")

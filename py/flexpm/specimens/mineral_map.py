@@ -55,10 +55,13 @@ def minerals_of(specimen: AnySpecimen, material: Material) -> IntArray | None:
         before = minerals_of(specimen.before, material)  # pieces of a grain are of its mineral
         return None if before is None else np.ascontiguousarray(before[specimen.parents])
     given, count = specimen.minerals, len(material.minerals)
-    if given is not None and (count == 0 or given.max() >= count):
+    most = 0 if given is None else int(given.max())
+    if most > 0 and most >= count:  # grains of the first mineral alone need no table
+        order = ", ".join(specimen.mineral_names)
         raise InputError(
-            f"specimen minerals = {given.max()}, must be below the number of minerals of "
+            f"specimen minerals = {most}, must be below the number of minerals of "
             f"{material.name}, {count}; give it more [[mineral]] tables"
+            + (f", in the order {order}" if order else "")
         )
     if count == 0:
         return None

@@ -189,6 +189,20 @@ TEST_CASE("the fit of labels finds the cells that made them", "[space]")
     }
     REQUIRE(right() > 0.998);
 
+    SECTION("scores that are far too sharp stay numbers, and come back")
+    {
+        for (int i = 0; i < count; ++i) {
+            const Vector c = scores.centres[i];
+            scores.slopes[i] = 1e12 * c;
+            scores.levels[i] = 1e12 * dot(c, c);
+        }
+        const LabelFitOptions options { grid.size.x * radius, radius, 1e-6, 12 };
+        scores = fit_labels(samples, scores, options);
+        for (int i = 0; i < count; ++i)
+            REQUIRE((is_finite(scores.slopes[i]) && std::isfinite(scores.levels[i])));
+        REQUIRE(right() > 0.5);
+    }
+
     SECTION("a label that rivals leave out is refused")
     {
         for (int& rival : samples.rivals)

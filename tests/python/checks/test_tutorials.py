@@ -65,6 +65,7 @@ def test_label_volume(package_parent, tmp_path):
     assert int(pairs["quartz/quartz"]) < int(pairs["feldspar/feldspar"])
     for name in ("volume.png", "core/outside.png", "core/cracks.csv"):
         assert (tmp_path / name).stat().st_size > 1000
+    assert "no map" not in (tmp_path / "core" / "report.html").read_text()
 
 
 @pytest.mark.long

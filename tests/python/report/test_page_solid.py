@@ -7,6 +7,7 @@ import base64
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from processes import wait_for
 
 import flexpm
 from flexpm.cli import main as cli
-from flexpm.report.pages import page, page_run, page_solid
+from flexpm.report.pages import page, page_map, page_run, page_solid
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_state, write_vtu
 
@@ -70,6 +71,13 @@ def numbers(data: bytes, count: int) -> tuple[np.ndarray, bytes]:
                 break
         found.append(-(value + 1) // 2 if value % 2 else value // 2)
     return np.array(found), data[at:]
+
+
+def test_minerals_of_grains_beyond_a_section_are_left_out():
+    """A section ends with the last grain that it cuts; the minerals are those of all grains."""
+    drawing = SimpleNamespace(grain_mineral=np.array([0, 1, 0, 1]))
+    found = page_map._rock(drawing, ["a", "", "c"], ["quartz", "feldspar"])
+    assert [(name, path) for name, _, path in found] == [("quartz", "ac"), ("feldspar", "")]
 
 
 def test_whole_numbers_come_back():

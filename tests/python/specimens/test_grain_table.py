@@ -43,6 +43,18 @@ def test_power_cells_come_back_from_their_volumes_and_centroids(tmp_path):
     assert 2 * len(found & true) / (len(found) + len(true)) > 0.97
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_tables_that_are_no_tessellation_get_the_nearest_steps(tmp_path, seed):
+    """Centroids and volumes with noise: points would be hidden on the way."""
+    draw = np.random.default_rng(seed)
+    volumes = draw.lognormal(sigma=0.5, size=30)
+    volumes *= 0.02**3 / volumes.sum()
+    rows = [(k, *draw.uniform(0.001, 0.019, 3), one) for k, one in enumerate(volumes.tolist())]
+    path = written(tmp_path / "grains.csv", rows)
+    solid = Specimen.from_grain_table(path, width=0.02, depth=0.02, height=0.02)
+    assert solid.given.measured()[0] == pytest.approx(volumes, rel=1e-6)
+
+
 def test_small_differences_of_the_whole_volume_are_scaled_away(tmp_path):
     rows = [(*row[:4], 1.015 * row[4]) for row in grains()]
     solid = Specimen.from_grain_table(written(tmp_path / "grains.csv", rows), **SIZES)
@@ -80,6 +92,7 @@ REFUSED = [
     (lambda rows: rows[:-4], "must be that of the box, 7.68e-06 m3, within 2 %"),
     (lambda rows: [("g0", 0.03, *rows[0][2:]), *rows[1:]], "centroid of grain g0 = 0.03, "),
     (lambda rows: rows[:1], "must have 2 grains or more"),
+    (lambda rows: [*rows, ("a", *rows[7][1:])], "has the centroid of another grain"),
 ]
 
 
@@ -87,6 +100,13 @@ REFUSED = [
 def test_tables_that_do_not_fit_are_refused(tmp_path, change, words):
     path = written(tmp_path / "grains.csv", change(grains()))
     refusal(words, Specimen.from_grain_table, path, **SIZES)
+
+
+def test_pores_of_tables_are_refused(tmp_path):
+    rows = [(*row, "hole" if k == 3 else "a") for k, row in enumerate(grains())]
+    names = ("id", "x", "y", "z", "volume", "phase")
+    path = written(tmp_path / "grains.csv", rows, names)
+    refusal("table id = 'g3': phase = hole, must be", Specimen.from_grain_table, path, **SIZES)
 
 
 def test_missing_columns_are_refused(tmp_path):

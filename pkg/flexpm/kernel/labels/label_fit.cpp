@@ -22,7 +22,9 @@ constexpr double enough = 1e-2;
 constexpr int most_products = 80;
 /// Relative fall of the loss below which the fit ends.
 constexpr double flat = 1e-5;
-constexpr int most_halvings = 12;
+constexpr int most_halvings = 20;
+/// Stiffness of a step over the loss and the part of the voxels that a label has.
+constexpr double damping_rate = 1e-3;
 
 double dotted(const Fours& a, const Fours& b)
 {
@@ -75,6 +77,9 @@ public:
     {
         for (double weight : s.weights)
             total += weight;
+        parts.assign(start.labels(), 0.0);
+        for (std::size_t k = 0; k < s.labels.size(); ++k)
+            parts[s.labels[k]] += s.weights[k] / total;
         for (int i = 0; i < start.labels(); ++i) {
             const Vector a = start.slopes[i];
             now.emplace_back(slope_scale * a.x, slope_scale * a.y, slope_scale * a.z,
@@ -91,6 +96,7 @@ public:
     {
         double before = linearize();
         for (int step = 0; step < options.steps; ++step) {
+            damp(before);
             const Fours way = newton_way();
             const double slope = dotted(gradient, way);
             if (!(slope < 0.0)) break;
@@ -102,7 +108,7 @@ public:
                 after = loss();
                 if (after <= before + 1e-4 * part * slope) break;
             }
-            if (!(after < before)) {
+            if (!(std::isfinite(after) && after < before)) {
                 now = from;
                 break;
             }
@@ -132,12 +138,17 @@ private:
     const std::vector<Vector>& centres;
     LabelFitOptions options;
     double slope_scale, stiffness = 0.0, total = 0.0;
+    std::vector<double> parts;  ///< of the voxels' weights that each label has
+    std::vector<double> damping;
     Fours now, tied, gradient;
     std::vector<Share> shares;
     std::vector<std::size_t> ends;  ///< of each voxel in `shares`
-    std::vector<Eigen::Matrix4d> inverses;
+    std::vector<Eigen::Matrix4d> blocks, inverses;
 
     static double square(double x) { return x * x; }
+
+    /// @param x  at most 0; below -40 it is not worth its time
+    static double exponential(double x) { return x > -40.0 ? std::exp(x) : 0.0; }
 
     Four features(int label, Vector x) const
     {
@@ -173,7 +184,7 @@ private:
             }
             double exponentials = 0.0;
             for (double& score : scores)
-                exponentials += score > most - 40.0 ? std::exp(score - most) : 0.0;
+                exponentials += exponential(score - most);
             sum += samples.weights[k] * (most + std::log(exponentials) - own);
             visitor(k, first, scores, most, exponentials);
         }
@@ -191,14 +202,13 @@ private:
         shares.clear();
         ends.clear();
         gradient.assign(now.size(), Four::Zero());
-        std::vector<Eigen::Matrix4d> blocks(now.size(), Eigen::Matrix4d::Zero());
+        blocks.assign(now.size(), Eigen::Matrix4d::Zero());
         const double fit = visit([&](std::size_t k, int first, const std::vector<double>& scores,
                                      double most, double exponentials) {
             const double weight = samples.weights[k] / total;
             for (std::size_t r = 0; r < scores.size(); ++r) {
                 const int rival = samples.rivals[first + static_cast<int>(r)];
-                const double share =
-                    scores[r] > most - 40.0 ? std::exp(scores[r] - most) / exponentials : 0.0;
+                const double share = exponential(scores[r] - most) / exponentials;
                 const bool is_own = rival == samples.labels[k];
                 if (share < least_share && !is_own) continue;
                 const Four f = features(rival, samples.points[k]);
@@ -208,23 +218,32 @@ private:
             }
             ends.push_back(shares.size());
         });
-        inverses.clear();
         for (std::size_t i = 0; i < now.size(); ++i) {
             const Four off = stiffness * (now[i] - tied[i]);
             gradient[i].head<3>() += off.head<3>();
-            // a label that is alone in all its voxels has the stiffness alone
-            blocks[i].diagonal().array() += stiffness;
-            inverses.push_back(blocks[i].llt().solve(Eigen::Matrix4d::Identity()));
         }
         return fit + tie_loss();
+    }
+
+    /// Bound the step of labels whose shares are 0 or 1 in all voxels, which have a slope and no
+    /// curvature: by a stiffness that falls with the loss, so that the end converges as before.
+    void damp(double loss_now)
+    {
+        damping.clear();
+        inverses.clear();
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            damping.push_back(stiffness + damping_rate * loss_now * parts[i]);
+            Eigen::Matrix4d block = blocks[i];
+            block.diagonal().array() += damping[i];
+            inverses.push_back(block.llt().solve(Eigen::Matrix4d::Identity()));
+        }
     }
 
     Fours product(const Fours& way) const
     {
         Fours result(now.size());
         for (std::size_t i = 0; i < now.size(); ++i) {
-            result[i] = stiffness * way[i];
-            result[i][3] = 0.0;
+            result[i] = damping[i] * way[i];
         }
         std::size_t first = 0;
         for (std::size_t k = 0; k < ends.size(); ++k) {

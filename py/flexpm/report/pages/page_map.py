@@ -193,14 +193,16 @@ def _path(corners: Sequence[tuple[int, int]]) -> str:
 def _rock(
     drawing: Snapshot, outlines: Sequence[str], minerals: Sequence[str]
 ) -> list[tuple[str, str, str]]:
-    """All grains of each mineral as one path."""
+    """Return all grains of each mineral as one path."""
     kind = np.zeros(len(outlines), dtype=int)
     if drawing.grain_mineral is not None:
         kind = drawing.grain_mineral
     found = []
     for number in np.unique(kind).tolist():
         name = minerals[number] if number < len(minerals) else ""
-        path = "".join(outlines[grain] for grain in np.flatnonzero(kind == number))
+        # a section of a solid ends with the last grain that it cuts
+        there = np.flatnonzero(kind[: len(outlines)] == number)
+        path = "".join(outlines[grain] for grain in there)
         found.append((name, MINERALS[number % len(MINERALS)], path))
     return found
 

@@ -216,6 +216,7 @@ def voxel_sizes(voxel: object) -> Triple:
     Raises:
         InputError: for other values than lengths.
     """
+    voxel = voxel.tolist() if isinstance(voxel, np.ndarray) else voxel
     given = require_list("voxel", voxel) if isinstance(voxel, list | tuple) else [voxel] * 3
     if len(given) != 3:
         raise InputError(

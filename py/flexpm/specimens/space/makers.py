@@ -173,7 +173,7 @@ class SolidShapes:
         source: LabelVolume | AnyArray | Path | str,
         *,
         voxel: float | tuple[float, float, float] | None = None,
-        minerals: Mapping[int, int | None] | None = None,
+        minerals: Mapping[int, int | None] | Path | str | None = None,
         least_voxels: int = 8,
         watershed: bool = False,
         shape: str = "box",
@@ -191,16 +191,18 @@ class SolidShapes:
         Args:
             source: A file (doc/volumes), a ``LabelVolume``, or an array of whole numbers (z, y, x).
             voxel: Size of a voxel, or sizes along x, y and z [m]; for an array required.
-            minerals: Index of the mineral of each label, None for a pore. If it has pores only, the
-                other labels are rock without minerals. None: the phases of the file are minerals,
-                and label 0 of a ``.tesr`` file, the void, is a pore.
+            minerals: Index of the mineral of each label, None for a pore; or a table or a second
+                volume, see ``--minerals`` in doc/volumes. If it is None or has pores only, the
+                phases of the file are minerals, if it has any. Label 0 of ``.tesr`` and
+                ``.dream3d`` files, the void, is a pore.
             least_voxels: Smallest number of voxels of a grain or pore; smaller ones are merged with
                 a neighbour.
             watershed: Divide the regions of a label where they are narrow, for labels of phases.
             shape: ``box``: the whole volume. ``cylinder`` about z or ``solid-disc`` about y, cut
                 from the middle of the volume.
             diameter: Diameter of a cylinder or disc [m].
-            volumes: ``exact``: cells have the volumes of their grains within 1e-7.
+            volumes: ``exact``: in the box, before short edges are collapsed, cells have the
+                volumes of their grains within 1e-7.
             short_edge: Ratio to the mean diameter below which edges of cells are collapsed [-]; 0:
                 none.
             progress: Receives the stages of the fit.
@@ -220,11 +222,16 @@ class SolidShapes:
             >>> two.statistics()["grains"], two.fit.totals["agreement"]
             (2, 1.0)
         """
-        from ..volumes.specimen_of_volume import VolumeOptions, kinds_of, specimen_of, volume_of
+        from ..volumes.specimen_of_volume import VolumeOptions, specimen_of, volume_of
+        from ..volumes.volume_minerals import kinds_of, kinds_of_minerals
 
         options = VolumeOptions(least_voxels, watershed, shape, diameter, volumes, short_edge)
         volume = volume_of(source, voxel, reading)
-        return specimen_of(volume, kinds_of(volume, minerals), options, progress)
+        if isinstance(minerals, Path | str):
+            kinds = kinds_of_minerals(Path(minerals), volume, reading)
+        else:
+            kinds = kinds_of(volume, minerals)
+        return specimen_of(volume, kinds, options, progress)
 
     @staticmethod
     def from_grain_table(

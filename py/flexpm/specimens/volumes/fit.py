@@ -119,6 +119,19 @@ class Grid:
             found[:, axis] = 0.5 * size * sums / voxels
         return found
 
+    def metric(self, centroids: FloatArray) -> FloatArray:
+        """Inverse of the mean second moment of the regions about their centroids, with det. 1."""
+        sides = np.array(self.counts, dtype=float)
+        # sums over all voxels of the box, less those of the centroids
+        whole = np.prod(sides) * np.outer(sides, sides) / 4.0
+        whole[np.diag_indices(3)] = np.prod(sides) * (4.0 * sides**2 - 1.0) / 12.0
+        parts = self.voxels()[:, None, None] * centroids[:, :, None] * centroids[:, None, :]
+        moment = whole * np.outer(self.spacing, self.spacing) - np.sum(parts, axis=0)
+        moment += np.prod(sides) / 12.0 * np.diag(self.spacing**2)  # of the voxels themselves
+        inverse = np.linalg.inv(moment)
+        found: FloatArray = inverse / np.cbrt(np.linalg.det(inverse))
+        return found
+
     def neighbours(self) -> IntArray:
         """Pairs of regions that share a side of a voxel, rows of two, the lower one first."""
         return shared_sides(self.regions)[0]
@@ -214,10 +227,16 @@ class _Problem:
         return cls(grid, solid, centroids, radii, _samples(grid), rivals)
 
     def start(self) -> Trial:
-        """Cells of the centroids, with the radii of balls of the regions' volumes."""
-        # |x - c|^2 - R^2, up to |x|^2, as a linear score seen from the centroid
-        levels = np.sum(self.centroids**2, axis=1) + self.radii**2
-        return self._measured((self.centroids, levels), "start")
+        """Cells of the centroids, with the radii of balls of the regions' volumes.
+
+        Distances are measured by the shape that the regions have in the mean, so that grains which
+        are all elongated one way begin as well as round ones.
+        """
+        metric = self.grid.metric(self.centroids)
+        # (x - c) M (x - c) - R^2, up to x M x, as a linear score seen from the centroid
+        slopes = np.sum(self.centroids[:, :, None] * metric, axis=1)
+        levels = np.sum(slopes * self.centroids, axis=1) + self.radii**2
+        return self._measured((slopes, levels), "start")
 
     def fitted(
         self, scores: Scores, width: float, stage: str, factors: FloatArray | None = None

@@ -15,27 +15,28 @@ from pathlib import Path
 
 import numpy as np
 
-from ..._flexpm import weighted_cells, weights_of_volumes
+from ..._flexpm import Solid, weighted_cells, weights_of_volumes
 from ...arrays import FloatArray, IntArray
 from ...errors import InputError
 from ...files import load_csv
 from ...progress import Progress
-from ...require import LENGTH, quoted, require_number, require_one_of
+from ...require import LENGTH, quoted, require_name, require_number, require_one_of
 from ..checks import require_short_edge
 from ..kernel_input import call
 from ..label_volumes.reading import UNITS
+from ..labels.picture import HOLE_NAME
 from ..space.frame import SolidFrame
 from ..space.own_cells import OwnCells
 from ..space.specimen import SolidSpecimen
 
 _WHERE = "Specimen.from_grain_table"
 _COLUMNS = ("id", "x", "y", "z", "volume")
-_PHASE = "phase"
+_PHASE, _MINERAL = "phase", "mineral"
 #: Relative difference of the volumes of all grains and of the box that is scaled away [-].
 _UNFILLED = 0.02
 #: Relative error of the volumes [-].
 _EXACT = 1e-7
-#: Steps of the points towards the given centroids. The error falls by about a half in each.
+#: Steps of the points towards the given centroids; one that hides a point is halved.
 _STEPS = 12
 
 
@@ -57,7 +58,7 @@ class GrainTable:
 
 
 def read(path: Path, unit: str) -> GrainTable:
-    """Read a CSV file with the columns id, x, y, z, volume and, optionally, phase.
+    """Read a CSV file with the columns id, x, y, z, volume and, optionally, phase or mineral.
 
     Args:
         path: The file. Other columns are left out.
@@ -95,9 +96,38 @@ def read(path: Path, unit: str) -> GrainTable:
     if len({*ids}) < len(ids):
         twice = next(one for number, one in enumerate(ids) if one in ids[:number])
         raise InputError(f"table id = {quoted(twice)}, must be in one row; remove the other row")
+    _, first, counts = np.unique(values[:3], axis=1, return_index=True, return_counts=True)
+    if (counts > 1).any():
+        raise InputError(
+            f"table id = {quoted(ids[first[np.argmax(counts > 1)]])}, has the centroid of another "
+            "grain; move one of them"
+        )
     metres = UNITS[unit]
-    phases = tuple(columns.get(_PHASE, ()))
+    phases = tuple(
+        require_name(f"table id {one}: {_PHASE}", phase)
+        for one, phase in zip(ids, columns.get(_PHASE, columns.get(_MINERAL, ())), strict=False)
+    )
+    if HOLE_NAME in phases:
+        raise InputError(
+            f"table id = {quoted(ids[phases.index(HOLE_NAME)])}: {_PHASE} = {HOLE_NAME}, must be a "
+            "mineral; a pore cannot be made of a table"
+        )
     return GrainTable(ids, metres * values[:3].T.copy(), metres**3 * values[3], phases)
+
+
+def _weights(
+    points: FloatArray, start: FloatArray, solid: Solid, volumes: FloatArray
+) -> FloatArray:
+    """Return the weights of the volumes, from weights that hide no point, else from none."""
+    if (weighted_cells(points, start, solid).volumes <= 0.0).any():
+        start = np.zeros(len(start))
+    return call(weights_of_volumes, points, start, solid, volumes, _EXACT)
+
+
+def centroid_error(made: SolidSpecimen, given: GrainTable) -> float:
+    """Root mean square distance of the cells' centroids from those of the table [m]."""
+    off = made.centres - given.centroids
+    return float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
 
 
 def specimen_of(
@@ -135,24 +165,28 @@ def specimen_of(
             "be inside the box, which has a corner at the origin; move the grains"
         )
     volumes = given.volumes * (solid.volume / total)
-    points, weights = given.centroids.copy(), np.zeros(len(volumes))
-    best: tuple[float, FloatArray, FloatArray] | None = None
-    for step in range(_STEPS + 1):
+    points = given.centroids
+    weights = _weights(points, np.zeros(len(volumes)), solid, volumes)
+    off = points - weighted_cells(points, weights, solid).centroids
+    part = 1.0
+    for step in range(_STEPS):
         if progress is not None:
             progress(step, _STEPS, f"cells of {len(volumes)} grains")
-        weights = call(weights_of_volumes, points, weights, solid, volumes, _EXACT)
-        off = given.centroids - weighted_cells(points, weights, solid).centroids
-        error = float(np.sqrt(np.mean(off**2)))
-        if best is not None and error > best[0]:
-            break
-        best = error, points, weights
-        points = points + off
-    assert best is not None
-    error, points, weights = best
+        trial = points + part * off
+        try:
+            new = _weights(trial, weights, solid, volumes)
+        except (InputError, RuntimeError):  # a point is hidden
+            part *= 0.5
+            continue
+        new_off = given.centroids - weighted_cells(trial, new, solid).centroids
+        if np.sum(new_off**2) >= np.sum(off**2):
+            part *= 0.5
+            continue
+        points, weights, off = trial, new, new_off
     own = OwnCells.of_weighted(weighted_cells(points, weights, solid))
     made = SolidSpecimen.of_cells(own, "box", sizes, short_edge)
     names = tuple(dict.fromkeys(given.phases))
-    if len(names) > 1:
+    if names:
         numbers: IntArray = np.array([names.index(one) for one in given.phases], dtype=np.int32)
         made = replace(made.with_minerals(numbers), mineral_names=names)
     return made

@@ -9,10 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import BoolArray, FloatArray, IntArray
+from ...arrays import AnyArray, BoolArray, FloatArray, IntArray
 from ...errors import InputError
 from ...files import Table
 from ..label_volumes.label_volume import Labels, LabelVolume
+from ..label_volumes.reading import MOST_PHASES
 from ..labels.regions import Merging, connected, shared_sides
 
 _WHERE = "Specimen.from_label_volume"
@@ -89,6 +90,11 @@ def find(
     Raises:
         InputError: if less than two grains remain, or there are too many of them.
     """
+    if watershed and len(volume.ids) > MOST_PHASES:
+        raise InputError(
+            f"{_WHERE}: watershed of {len(volume.ids)} labels, must be <= {MOST_PHASES} phases; "
+            "leave it out for labels of grains"
+        )
     holes = np.isin(volume.ids, [*kinds.pores])
     of_label = np.arange(len(volume.ids))  # without minerals each label is of its own kind
     if kinds.minerals is not None:
@@ -103,7 +109,8 @@ def find(
     counts["small_regions"] = merging.merge(least_voxels, holes=False)
     counts["small_pores"] = merging.merge(least_voxels, holes=True)
     found = merging.target[found]
-    loose = _loose(found, is_hole)
+    voxels = np.bincount(found.ravel(), minlength=len(is_hole))
+    loose = loose_grains(shared_sides(found)[0], is_hole, voxels)
     counts["loose_grains"] = len(loose)
     is_hole[loose] = True
     counts["pore_voxels"] = int(np.count_nonzero(is_hole[found]))
@@ -124,21 +131,29 @@ def find(
     return VolumeRegions(regions, ids, minerals, len(rock), counts)
 
 
-def _loose(found: IntArray, is_hole: BoolArray) -> IntArray:
-    """Return the grains that are not connected with the largest part of the rock."""
+def loose_grains(pairs: IntArray, is_pore: BoolArray, sizes: AnyArray) -> IntArray:
+    """Return the grains that are not connected with the largest part of the rock.
+
+    Args:
+        pairs: Neighbours, rows of two.
+        is_pore: Whether a region is a pore.
+        sizes: Volume of each region in any unit; 0: there is none.
+
+    Raises:
+        InputError: if there is no rock.
+    """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    pairs, _ = shared_sides(found)
-    pairs = pairs[~is_hole[pairs].any(axis=1)]
-    size = len(is_hole)
-    graph = coo_array((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), (size, size))
-    part = connected_components(graph, directed=False)[1]
-    voxels = np.bincount(found.ravel(), minlength=size)
-    rock = np.flatnonzero(~is_hole & (voxels > 0))
+    rock = np.flatnonzero(~is_pore & (sizes > 0.0))
     if not len(rock):
         raise InputError(f"{_WHERE}: all labels are pores; choose another phase as hole")
-    largest = int(np.argmax(np.bincount(part[rock], voxels[rock])))
+    joined = pairs[~is_pore[pairs].any(axis=1)]
+    count = len(is_pore)
+    ones = np.ones(len(joined), dtype=np.int8)
+    graph = coo_array((ones, (joined[:, 0], joined[:, 1])), shape=(count, count))
+    part = connected_components(graph, directed=False)[1]
+    largest = int(np.argmax(np.bincount(part[rock], sizes[rock])))
     loose: IntArray = rock[part[rock] != largest]
     return loose
 

@@ -9,23 +9,23 @@ from pathlib import Path
 
 import numpy as np
 
-from ..._flexpm import weighted_cells
-from ...arrays import AnyArray, FloatArray
+from ..._flexpm import WeightedCells, weighted_cells
+from ...arrays import AnyArray, FloatArray, IntArray
 from ...errors import InputError
 from ...files import Table
 from ...progress import Progress
 from ...require import POSITIVE, Bounds, quoted, require_number, require_one_of, require_whole
 from ..checks import require_short_edge
 from ..kernel_input import call
-from ..label_volumes.label_volume import LabelVolume
+from ..label_volumes.label_volume import Labels, LabelVolume
 from ..label_volumes.reading import read
 from ..space.frame import SolidFrame
 from ..space.own_cells import OwnCells
 from ..space.spec import SHORT_EDGE
 from ..space.specimen import SolidSpecimen
 from . import regions
-from .fit import Grid, fit
-from .regions import Kinds
+from .fit import Grid, Trial, edges_of, fit
+from .regions import Kinds, loose_grains
 from .volume_report import compare
 
 _WHERE = "Specimen.from_label_volume"
@@ -35,7 +35,7 @@ VOLUMES = ("fitted", "exact")
 LEAST_VOXELS = 8
 #: Most voxels of a fit.
 MOST_VOXELS = 30_000_000
-#: Volume over that of a mean grain below which the outline leaves too little of a grain [-].
+#: Ratio of the volume of a cell to that of its grain, or of a mean grain, that is too little [-].
 _REST = 0.05
 
 
@@ -86,34 +86,76 @@ def specimen_of(
     found = regions.find(volume, kinds, options.least_voxels, watershed=options.watershed)
     grid = Grid(found.regions, np.array(volume.spacing), found.count, found.grains)
     fitted = fit(grid, progress, exact=options.volumes == "exact")
-    report = compare(grid, found, fitted, volume.origin)
     frame, corner = _frame(options, sizes, found.grains)
-    points, weights = fitted.best.points + corner, fitted.best.weights
-    kept = np.arange(found.count)
-    cells = call(weighted_cells, points, weights, frame.solid())
-    least = 0.0 if options.shape == "box" else _REST * frame.solid().volume / found.grains
-    while True:
-        there = cells.volumes > least
-        if there.all():
-            break
-        points, weights, kept = points[there], weights[there], kept[there]
-        cells = call(weighted_cells, points, weights, frame.solid())
-    left = int(np.count_nonzero(kept < found.grains))
-    if left < 2:
+    cells, kept, loose = _cut(grid, fitted.best, frame, corner)
+    kept_grains = kept[kept < found.grains]
+    if len(kept_grains) < 2:
         remedy = "give another part of the volume"
         if options.diameter is not None:
             remedy = "give a larger diameter"
         raise InputError(
-            f"{_WHERE}: grains with a cell in the {options.shape} = {left} of {found.grains}, must "
-            f"be >= 2; {remedy}"
+            f"{_WHERE}: grains with a cell in the {options.shape} = {len(kept_grains)} of "
+            f"{found.grains}, must be >= 2; {remedy}"
         )
-    own = OwnCells.of_weighted(cells).with_pores(int(np.count_nonzero(kept >= found.grains)))
+    own = OwnCells.of_weighted(cells).with_pores(len(kept) - len(kept_grains))
     made = SolidSpecimen.of_cells(
         own, options.shape, _named_sizes(options, sizes), options.short_edge
     )
     if found.minerals is not None:
-        made = made.with_minerals(found.minerals[kept[kept < found.grains]])
+        made = made.with_minerals(found.minerals[kept_grains])
+    report = compare(grid, found, fitted, volume.origin)
+    inside = _voxels_inside(grid, frame, corner)
+    report = report.of_specimen(made, kept_grains, found, inside, loose)
     return replace(made, mineral_names=kinds.names, fit=report)
+
+
+def _cut(
+    grid: Grid, best: Trial, frame: SolidFrame, corner: FloatArray
+) -> tuple[WeightedCells, IntArray, int]:
+    """Cut the cells by the outline.
+
+    Grains of which too little is left give their place to their neighbours: less than 5 % of the
+    grain, and in a round outline less than 5 % of a mean grain. Grains that
+    are not connected with the largest part of the rock become pores.
+
+    Returns:
+        The cells, grains before pores; the region of each cell; the number of loose grains.
+    """
+    solid = frame.solid()
+    points, weights, kept = best.points + corner, best.weights, np.arange(grid.count)
+    volumes = grid.voxel * grid.voxels()
+    least = _REST * volumes
+    if frame.kind != "box":
+        least = np.maximum(least, _REST * float(volumes[: grid.grains].mean()))
+    cells = call(weighted_cells, points, weights, solid)
+    while not (there := cells.volumes > least[kept]).all():
+        points, weights, kept = points[there], weights[there], kept[there]
+        cells = call(weighted_cells, points, weights, solid)
+    pores = kept >= grid.grains
+    loose = loose_grains(edges_of(cells), pores, cells.volumes)
+    if len(loose):
+        pores[loose] = True
+        order = np.argsort(pores, kind="stable")
+        kept = np.where(pores & (kept < grid.grains), grid.count, kept)[order]
+        cells = call(weighted_cells, points[order], weights[order], solid)
+    return cells, kept, len(loose)
+
+
+def _voxels_inside(grid: Grid, frame: SolidFrame, corner: FloatArray) -> Labels:
+    """Return the regions of the voxels whose middles are in the outline."""
+    if frame.kind == "box":
+        return grid.regions.ravel()
+    axes = (0, 1) if frame.kind == "cylinder" else (0, 2)
+    off = [
+        (np.arange(grid.counts[axis]) + 0.5) * grid.spacing[axis] + corner[axis] for axis in axes
+    ]
+    inside = off[0][None, :] ** 2 + off[1][:, None] ** 2 < (0.5 * frame.sizes[0]) ** 2
+    # voxels are (z, y, x)
+    return (
+        grid.regions[:, inside].ravel()
+        if axes == (0, 1)
+        else grid.regions.transpose(0, 2, 1)[inside].ravel()
+    )
 
 
 def volume_of(
@@ -137,44 +179,6 @@ def volume_of(
     if voxel is None:
         raise InputError(f"{_WHERE}: voxel = None, must be given for an array; give its size in m")
     return LabelVolume.of(np.asarray(source), voxel)
-
-
-def kinds_of(volume: LabelVolume, minerals: Mapping[int, int | None] | None) -> Kinds:
-    """Return the minerals and pores among the labels of a volume.
-
-    Args:
-        volume: The volume.
-        minerals: As for ``Specimen.from_label_volume``.
-
-    Raises:
-        InputError: for a label without a mineral, or an index that is none.
-    """
-    voids = {0} if volume.has_voids else set()
-    ids = [one for one in volume.ids.tolist() if one not in voids]
-    if minerals is None:
-        if volume.phases is None:
-            return Kinds(pores=frozenset(voids))
-        phases = dict(zip(volume.ids.tolist(), volume.phases.tolist(), strict=True))
-        numbers = sorted({phases[label] for label in ids})
-        if len(numbers) < 2:
-            return Kinds(pores=frozenset(voids))
-        names = tuple(volume.phase_names.get(one, f"phase {one}") for one in numbers)
-        return Kinds({one: numbers.index(phases[one]) for one in ids}, frozenset(voids), names)
-    for label, mineral in minerals.items():
-        if mineral is not None:
-            where = f"{_WHERE}: minerals[{label}]"
-            require_whole(where, mineral, Bounds(at_least=0, at_most=99))
-    pores = frozenset(voids | {label for label, one in minerals.items() if one is None})
-    if pores.issuperset(minerals):
-        return Kinds(pores=pores)
-    missing = [label for label in ids if label not in minerals]
-    if missing:
-        others = f" and of {len(missing) - 1} others" if len(missing) > 1 else ""
-        raise InputError(
-            f"{_WHERE}: mineral of label {missing[0]}{others} is missing; give its index, or None "
-            "for a pore"
-        )
-    return Kinds({key: one for key, one in minerals.items() if one is not None}, pores)
 
 
 def _require_inside(options: VolumeOptions, sizes: Mapping[str, float]) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...files import Table, load_toml
-from ...require import quoted, require_name
+from ...require import Bounds, quoted, require_name, require_whole
 from ..label_volumes.label_volume import LabelVolume, sized
 from ..label_volumes.reading import read
 from ..labels import mineral_table
@@ -20,7 +20,64 @@ from .regions import Kinds
 
 #: What the voxels of a volume are: grains, or phases whose connected regions are grains.
 LABELS = ("grains", "phases")
+#: Names that are not meant as a mineral.
+_HOLES = ("hole", "pore", "pores", "void", "air")
 _WHOLE = re.compile(r"-?[0-9]{1,18}")
+
+
+def kinds_of(
+    volume: LabelVolume, minerals: Mapping[int, int | None] | None, labels: str = "grains"
+) -> Kinds:
+    """Return the minerals and pores among the labels of a volume.
+
+    Args:
+        volume: The volume.
+        minerals: As for ``Specimen.from_label_volume``.
+        labels: One of `LABELS`: labels of phases are minerals by default.
+
+    Raises:
+        InputError: for a label without a mineral, an index that is none, or a pore that is no label
+            of the volume.
+    """
+    ids = volume.ids.tolist()
+    voids = {0} if volume.has_voids else set()
+    given = {} if minerals is None else minerals
+    if not isinstance(given, Mapping):
+        raise InputError(
+            f"minerals = {quoted(given)}, must be an index or None by label, or a file; give "
+            "{label: index}"
+        )
+    for label, mineral in given.items():
+        if label not in ids and mineral is None:
+            raise InputError(f"pore = label {quoted(label)}, is no label of the volume; correct it")
+        if mineral is not None:
+            where = f"Specimen.from_label_volume: minerals[{label}]"
+            require_whole(where, mineral, Bounds(at_least=0, at_most=99))
+    pores = frozenset(voids | {label for label, one in given.items() if one is None})
+    rock = [one for one in ids if one not in pores]
+    if not pores.issuperset(given):
+        missing = [label for label in rock if label not in given]
+        if missing:
+            others = f" and of {len(missing) - 1} others" if len(missing) > 1 else ""
+            raise InputError(
+                f"Specimen.from_label_volume: mineral of label {missing[0]}{others} is missing; "
+                "give its index, or None for a pore"
+            )
+        return Kinds({label: int(given[label] or 0) for label in rock}, pores)
+    phases = dict.fromkeys(ids, 0)
+    names = dict(volume.phase_names)
+    if labels == "phases":
+        phases = {label: label for label in ids}
+        names = {}
+    elif volume.phases is not None:
+        phases = dict(zip(ids, volume.phases.tolist(), strict=True))
+    else:
+        return Kinds(pores=pores)
+    kinds = sorted({phases[label] for label in rock})
+    named = {one: names.get(one, f"phase {one}") for one in kinds}
+    order = list(dict.fromkeys(named.values()))
+    found = {label: order.index(named[phases[label]]) for label in rock}
+    return Kinds(found, pores, tuple(order))
 
 
 def kinds_of_file(path: Path, volume: LabelVolume, labels: str) -> Kinds:
@@ -29,38 +86,32 @@ def kinds_of_file(path: Path, volume: LabelVolume, labels: str) -> Kinds:
     Args:
         path: A TOML file with lines such as ``1 = "quartz"`` and ``0 = "hole"``. The keys are
             phases of the volume: its labels if `labels` is ``phases``, or if the file of the volume
-            has no phases of grains. A file with holes only makes all other labels rock.
+            has no phases of grains. A file with holes only leaves the minerals of all other labels
+            as they are without the file.
         volume: The volume.
         labels: One of `LABELS`.
 
     Raises:
-        InputError: for a key that is no whole number, or a phase without a key.
+        InputError: for a key that is no whole number or no phase, or a phase without a key.
     """
     found = _names(path)
     ids = volume.ids.tolist()
     phases = ids if labels == "phases" or volume.phases is None else volume.phases.tolist()
-    voids = {0} if volume.has_voids and 0 not in found else set()
+    unknown = [key for key, name in found.items() if name == HOLE_NAME and key not in phases]
+    if unknown:
+        raise InputError(
+            f"phases {unknown[0]} = hole, is no phase or label of the volume; correct {path}"
+        )
+    pairs = dict(zip(ids, phases, strict=True))
     if set(found.values()) == {HOLE_NAME}:
-        pores = {one for one, phase in zip(ids, phases, strict=True) if phase in found}
-        return Kinds(pores=frozenset(pores | voids))
-    needed = (phase for one, phase in zip(ids, phases, strict=True) if one not in voids)
-    _require_all(path, needed, found)
+        holes = {one: None for one, phase in pairs.items() if phase in found}
+        return kinds_of(volume, holes, labels)
+    voids = {0} if volume.has_voids and 0 not in found else set()
+    _require_all(path, (phase for one, phase in pairs.items() if one not in voids), found)
     names, of_phase = indices(found)
-    by_label = {
-        one: of_phase[phase] for one, phase in zip(ids, phases, strict=True) if one not in voids
-    }
+    by_label = {one: of_phase[phase] for one, phase in pairs.items() if one not in voids}
     rock = {label: mineral for label, mineral in by_label.items() if mineral is not None}
     return Kinds(rock, frozenset({*by_label} - {*rock} | voids), tuple(names))
-
-
-def kinds_of_phases(volume: LabelVolume) -> Kinds:
-    """Make each label of a volume of phases a mineral with the name of the label."""
-    voids = frozenset({0} if volume.has_voids else ())
-    ids = [one for one in volume.ids.tolist() if one not in voids]
-    if len(ids) < 2:
-        return Kinds(pores=voids)
-    numbers = {label: number for number, label in enumerate(ids)}
-    return Kinds(numbers, voids, tuple(f"phase {label}" for label in ids))
 
 
 def kinds_of_minerals(
@@ -72,7 +123,7 @@ def kinds_of_minerals(
         path: A CSV table, see ``mineral_table.read``, or a second volume with as many voxels. A
             grain has the phase that most of its voxels have in the second volume.
         volume: The volume of grains.
-        reading: Arguments of ``reading.read`` for a second volume.
+        reading: Arguments of ``reading.read`` with which the volume was read.
         phases: File of the phases of the second volume, see `kinds_of_file`; None: minerals are
             called ``phase 1`` and so on.
 
@@ -90,7 +141,13 @@ def kinds_of_minerals(
             )
         names, found = mineral_table.read(path, grains)
     else:
-        second = read(path, **reading)
+        # the second volume has the voxels of the first one, and options of a .raw file if it is one
+        options: Table = {name: reading.get(name) for name in ("crop", "coarsen")}
+        if path.suffix.lower() == ".raw":
+            options |= {name: reading.get(name) for name in ("counts", "dtype")}
+        step = options["coarsen"] = options["coarsen"] or 1
+        voxel = tuple(size / step for size in volume.spacing)
+        second = read(path, voxel=voxel, **options)
         if second.counts != volume.counts:
             raise InputError(
                 f"minerals = {quoted(str(path))} of {sized(second.counts)}, must have "
@@ -115,7 +172,14 @@ def _names(path: Path) -> dict[int, str]:
     for key, name in load_toml(path, "phases").items():
         if not _WHOLE.fullmatch(key):
             raise InputError(f"phases key = {quoted(key)}, must be a whole number; correct it")
+        if int(key) in found:
+            raise InputError(f"phases key = {quoted(key)}, is there twice; remove one of them")
         found[int(key)] = require_name(f"phases {quoted(key)}", name)
+        if name != HOLE_NAME and name.lower() in _HOLES:
+            raise InputError(
+                f"phases {quoted(key)} = {quoted(name)}, must be {quoted(HOLE_NAME)} for a pore; "
+                "correct it"
+            )
     if not found:
         raise InputError(f"phases = {quoted(str(path))}, is empty; give phase = mineral")
     return found

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from ...arrays import BoolArray, IntArray
 from ...files import Table
 from ..label_volumes.label_volume import Labels
 from ..space.own_cells import OwnCells
+from ..space.specimen import SolidSpecimen
 from .fit import Fitted, Grid, edges_of
 from .regions import VolumeRegions
 
@@ -26,8 +27,9 @@ class VolumeReport:
     """Agreement of grains with their cells in the box of the volume.
 
     Attributes:
-        columns: One value for each grain of the volume, by name; see doc/volumes. A grain without
-            a cell has no ``centroid_shift``: None.
+        columns: One value for each grain of the volume, by name; see doc/volumes. None: a grain
+            that is not in the specimen has no index ``grain``, and a grain without a cell no
+            ``centroid_shift``.
         totals: Figures of the whole volume, see doc/volumes.
         regions: Region of each voxel, (z, y, x); regions from ``len(columns["label"])`` on are
             pieces of pores.
@@ -47,11 +49,46 @@ class VolumeReport:
 
     @property
     def poor_grains(self) -> list[int]:
-        """Labels of the grains whose agreement is below `POOR`, worst first."""
+        """Rows of the grains whose agreement is below `POOR`, worst first."""
         agreement = np.array(self.columns["agreement"])
         poor = np.flatnonzero(agreement < POOR)
-        order = poor[np.argsort(agreement[poor], kind="stable")]
-        return [int(self.columns["label"][one]) for one in order]
+        order: list[int] = poor[np.argsort(agreement[poor], kind="stable")].tolist()
+        return order
+
+    def of_specimen(
+        self, made: SolidSpecimen, kept: IntArray, found: VolumeRegions, inside: Labels, loose: int
+    ) -> VolumeReport:
+        """Return the report with figures of the specimen that was cut from the cells.
+
+        Args:
+            made: The specimen.
+            kept: Region of each of its grains.
+            found: What the regions are.
+            inside: Regions of the voxels whose middles are in the outline.
+            loose: Number of grains that the cut has separated from the rock.
+        """
+        grain: list[int | None] = [None] * found.grains
+        for number, region in enumerate(kept.tolist()):
+            grain[region] = number
+        voxels = np.bincount(inside, minlength=found.count)
+        rock = float(voxels[: found.grains].sum())
+        volume = float(made.cells.volumes.sum())
+        totals = self.totals | {
+            "specimen_grains": len(kept),
+            "loose_grains": self.totals["loose_grains"] + loose,
+            "grains_left_out": int(found.grains - len(kept) - loose),
+            "pore_fraction": 1.0 - volume / made.outline().volume,
+            "source_pore_fraction": 1.0 - rock / float(voxels.sum()),
+        }
+        if found.minerals is not None:
+            count = int(found.minerals.max()) + 1
+            of_cells = np.bincount(found.minerals[kept], made.cells.volumes, count) / volume
+            source = np.bincount(found.minerals, voxels[: found.grains], count) / rock
+            totals |= {
+                "mineral_fractions": of_cells.tolist(),
+                "source_mineral_fractions": source.tolist(),
+            }
+        return replace(self, columns={"grain": grain, **self.columns}, totals=totals)
 
 
 def compare(
@@ -67,6 +104,7 @@ def compare(
     """
     voxels, cells = grid.voxels(), fitted.best.cells
     volumes = voxels * grid.voxel
+    places = grid.centroids() + np.array(origin)
     shift = np.sqrt(np.sum((cells.centroids - grid.centroids()) ** 2, axis=1))
     of_voxels, of_cells = grid.neighbours(), edges_of(cells).astype(np.int64)
     keys, others = (pairs @ [grid.count, 1] for pairs in (of_voxels, of_cells))
@@ -74,6 +112,7 @@ def compare(
     invented = of_cells[~np.isin(others, keys)]
     columns = {
         "label": found.ids,
+        **{axis: places[:, k] for k, axis in enumerate("xyz")},
         "voxels": voxels,
         "volume": cells.volumes,
         "agreement": fitted.best.own,
@@ -87,7 +126,6 @@ def compare(
     errors = cells.volumes[rock] / volumes[rock] - 1.0
     rms = float(np.sqrt(np.mean(errors**2)))
     both = len(of_voxels) - len(lost)
-    is_pore = grid.regions >= found.grains
     totals: Table = {
         "voxels": list(grid.counts),
         "voxel_size": grid.spacing.tolist(),
@@ -101,9 +139,7 @@ def compare(
         "neighbours_f1": 2.0 * both / (len(of_voxels) + len(of_cells)),
         "boundary_area": _boundary_area(fitted, found.grains),
         "source_boundary_area": _source_area(grid, found.grains) / _STAIRCASE,
-        "pore_fraction": float(cells.volumes[found.grains :].sum() / cells.volumes.sum()),
-        "source_pore_fraction": float(np.count_nonzero(is_pore) / is_pore.size),
-        "lost_grains": found.ids[rock][cells.volumes[rock] <= 0.0].tolist(),
+        "lost_grains": np.flatnonzero(cells.volumes[rock] <= 0.0).tolist(),
     }
     kept = {name: np.asarray(values)[rock].tolist() for name, values in columns.items()}
     for lost in np.flatnonzero(cells.volumes[rock] <= 0.0).tolist():
