@@ -105,7 +105,8 @@ def specimen_of(
         made = made.with_minerals(found.minerals[kept_grains])
     report = compare(grid, found, fitted, volume.origin)
     inside = _voxels_inside(grid, frame, corner)
-    report = report.of_specimen(made, kept_grains, found, inside, loose)
+    size = made.outline().volume
+    report = report.of_specimen(made.cells.volumes, size, kept_grains, found, inside, loose)
     return replace(made, mineral_names=kinds.names, fit=report)
 
 

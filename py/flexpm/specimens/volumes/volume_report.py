@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ...arrays import BoolArray, IntArray
+from ...arrays import BoolArray, FloatArray, IntArray
 from ...files import Table
 from ..label_volumes.label_volume import Labels
 from ..space.own_cells import OwnCells
-from ..space.specimen import SolidSpecimen
 from .fit import Fitted, Grid, edges_of
 from .regions import VolumeRegions
 
@@ -56,13 +55,20 @@ class VolumeReport:
         return order
 
     def of_specimen(
-        self, made: SolidSpecimen, kept: IntArray, found: VolumeRegions, inside: Labels, loose: int
+        self,
+        volumes: FloatArray,
+        outline: float,
+        kept: IntArray,
+        found: VolumeRegions,
+        inside: Labels,
+        loose: int,
     ) -> VolumeReport:
         """Return the report with figures of the specimen that was cut from the cells.
 
         Args:
-            made: The specimen.
-            kept: Region of each of its grains.
+            volumes: Volume of each grain of the specimen [m3].
+            outline: Volume of its outline [m3].
+            kept: Region of each grain.
             found: What the regions are.
             inside: Regions of the voxels whose middles are in the outline.
             loose: Number of grains that the cut has separated from the rock.
@@ -72,17 +78,17 @@ class VolumeReport:
             grain[region] = number
         voxels = np.bincount(inside, minlength=found.count)
         rock = float(voxels[: found.grains].sum())
-        volume = float(made.cells.volumes.sum())
+        volume = float(volumes.sum())
         totals = self.totals | {
             "specimen_grains": len(kept),
             "loose_grains": self.totals["loose_grains"] + loose,
             "grains_left_out": int(found.grains - len(kept) - loose),
-            "pore_fraction": 1.0 - volume / made.outline().volume,
+            "pore_fraction": 1.0 - volume / outline,
             "source_pore_fraction": 1.0 - rock / float(voxels.sum()),
         }
         if found.minerals is not None:
             count = int(found.minerals.max()) + 1
-            of_cells = np.bincount(found.minerals[kept], made.cells.volumes, count) / volume
+            of_cells = np.bincount(found.minerals[kept], volumes, count) / volume
             source = np.bincount(found.minerals, voxels[: found.grains], count) / rock
             totals |= {
                 "mineral_fractions": of_cells.tolist(),

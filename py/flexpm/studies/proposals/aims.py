@@ -103,7 +103,11 @@ def _aims_of(
 ) -> Iterator[Aim | str]:
     """Yield the target of a measure, or why it has none."""
     assert entry.value is not None
-    value, tolerance = entry.value, _tolerance(entry)
+    value = entry.value
+    if value == 0.0:
+        yield f"{name} (0 has no relative tolerance)"
+        return
+    tolerance = _tolerance(entry)
     measure, _, percent = name.rpartition("_")
     if name in _TARGETS:
         yield Aim(Target(_TARGETS[name], rounded(value), tolerance), name, value)
@@ -116,12 +120,17 @@ def _aims_of(
         pressure = _pressure(rock, int(percent))
         yield Aim(Target("peak", strength, tolerance, pressure=pressure), name, value)
     elif measure == _DROP:
-        least = rounded(value if entry.band.lower is None else entry.band.lower)
+        least = value if entry.band.lower is None else entry.band.lower
+        if least <= 0.0:
+            yield f"{name} (its lower bound is met by any drop)"
+            return
+        # a target counts as met within its tolerance, and the bound of the rock has none
+        least = rounded(least / (1.0 - _TOLERANCE))
         pressure = _pressure(rock, int(percent))
         yield Aim(Target("drop", least, _TOLERANCE, pressure=pressure), name, least)
     elif name == "compressive_indirect_ratio":
-        if "indirect_tensile_strength" not in deciding:
-            yield f"{name} (give the indirect tensile strength)"
+        if not deciding.issuperset({"indirect_tensile_strength", "compressive_strength"}):
+            yield f"{name} (let compressive and indirect tensile strength decide)"
         # else it follows from two targets
     else:
         yield f"{name} (no target of calibrations)"
@@ -133,9 +142,12 @@ def _pressure(rock: Rock, percent: int) -> float:
 
 
 def _tolerance(entry: Entry) -> float:
-    """Relative distance of the nearer bound of a band from the value [-]."""
+    """Relative distance of the nearer bound of a band from the value [-].
+
+    A value on its bound has the default tolerance.
+    """
     value = entry.value
     assert value is not None
     ends = [abs(one / value - 1.0) for one in (entry.band.lower, entry.band.upper) if one]
-    nearest = min((one for one in ends if one > 0.0), default=_TOLERANCE)
+    nearest = min(ends, default=_TOLERANCE) or _TOLERANCE
     return float(f"{nearest:.2g}")

@@ -58,6 +58,10 @@ class Origin:
     exponents: Exponents | None
 
 
+#: Measures over a fixed strain after the peak.
+_OF_A_WINDOW = ("drop_", "dilation_")
+
+
 @dataclass(frozen=True)
 class Start:
     """A material from which a calibration begins.
@@ -136,7 +140,18 @@ def without_exponents(known: Exponents, aims: Sequence[Aim], keys: Sequence[str]
     """Return the measures that the step leaves out, as exponents of some keys are missing."""
     used = [key for key in keys if key in _measured(known)]
     names = [aim.measure for aim in aims if aim.measure not in ELASTIC_MEASURES]
-    return [name for name in names if not all(key in known.of.get(name, {}) for key in used)]
+    return [name for name in names if not _moves(known, name, used)]
+
+
+def _moves(known: Exponents, measure: str, keys: Sequence[str]) -> bool:
+    """Whether the step takes a measure: all exponents are known, and some are beyond their scatter.
+
+    Drops and dilations are no similar measures: they are taken over a fixed strain.
+    """
+    of = known.of.get(measure, {})
+    if measure.startswith(_OF_A_WINDOW) or not all(key in of for key in keys):
+        return False
+    return any(of[key].clear for key in keys)
 
 
 def _measured(known: Exponents) -> set[str]:
@@ -157,9 +172,9 @@ def _steps(
     rows, wanted = [], []
     for aim in aims:
         name = aim.measure
-        of = known.of.get(name, {})
-        if name in ELASTIC_MEASURES or not all(key in of for key in keys):
+        if name in ELASTIC_MEASURES or not _moves(known, name, keys):
             continue
+        of = known.of[name]
         found = expected(name, known.measures[name], factors)
         if found <= 0.0 or (aim.target.least and found >= aim.measured):
             continue

@@ -21,6 +21,7 @@ from ..calibration_problem import Calibration
 from ..calibration_report import content_of, toml_text
 from ..calibration_search import ELASTIC_FITS, jobs_of, started
 from ..scorecards import rock as rocks
+from ..scorecards.exponents import Exponents
 from ..scorecards.runs import JAWS, SHAPES, SIZES, grains_of
 from . import aims as targets
 from . import beginning
@@ -42,6 +43,8 @@ _FREED = {
     "drop": ("shear_fracture_energy", "friction"),
     "crack_initiation": ("weibull",),
 }
+#: Exponent from which a key is freed for a target [-].
+_CLEAR = 0.15
 #: Targets that the share of the contacts in the compliance moves.
 _OF_COMPLIANCE = ("crack_initiation", "crack_damage")
 #: Bounds of free keys over their start, and the limits that they stay within.
@@ -130,7 +133,7 @@ def write(
             "measures that the material should meet"
         )
     source = beginning.origin(dimension_of(solid=is_solid(shape)), model)
-    elastic, searched = _free(aims, model, hard=source.exponents is not None)
+    elastic, searched = _free(aims, model, source.exponents)
     searched = [key for key in searched if key in beginning.similar(source.material, model, 1, 1)]
     start = beginning.start(source, model, found, aims.found, searched)
     bounds = {key: _bounds(key, start.values[key]) for key in (*elastic, *searched)}
@@ -138,24 +141,31 @@ def write(
         {k: rounded(min(max(start.values[k], a), b)) for k, (a, b) in bounds.items()}
     )
     content = _text(found.name, file.stem, first.name, model, shape, aims, elastic, bounds, start)
-    write_text(first, _material(f"{file.stem}-start", model, start))
-    write_text(file, content)
-    plan = calibration_problem.read(file)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        write_text(first, _material(f"{file.stem}-start", model, start))
+        write_text(file, content)
+        plan = calibration_problem.read(file)
+    except InputError as error:  # of targets without keys, for example
+        for one in (first, file):
+            one.unlink(missing_ok=True)
+        raise InputError(f"rock {quoted(found.name)}: {error}") from None
     young = found.entries.get("youngs_modulus")
     known = young is not None and young.value is not None
     return Proposal(plan, aims, start, cost(plan, start.values), known, (file, first))
 
 
-def _free(aims: Aims, model: str, *, hard: bool) -> tuple[list[str], list[str]]:
+def _free(aims: Aims, model: str, known: Exponents | None) -> tuple[list[str], list[str]]:
     """Return the elastic keys that the elastic targets determine, and the keys of the search.
 
     Args:
         aims: The targets.
         model: Name of the model.
-        hard: Whether the start has stiff grains, so that contacts determine the modulus.
+        known: Exponents about the start, which has stiff grains, so that contacts determine the
+            modulus; None: a usual material.
     """
     names = [without_pressure(one.target.name) for one in aims.found]
-    of_contacts = hard or model == "rigid"
+    of_contacts = known is not None or model == "rigid"
     fitted = dict(
         zip(
             ("youngs_modulus", "poissons_ratio"),
@@ -165,13 +175,25 @@ def _free(aims: Aims, model: str, *, hard: bool) -> tuple[list[str], list[str]]:
     )
     elastic = [key for name, key in fitted.items() if name in names]
     searched: list[str] = []
-    for name in names:
-        free = next((key for key in _FREED.get(name, ()) if key not in searched), None)
+    for one, name in zip(aims.found, names, strict=True):
+        free = next((key for key in _freed(name, one.measure, known) if key not in searched), None)
         searched += [] if free is None else [free]
     moved = any(name in names for name in _OF_COMPLIANCE)
-    if moved and elastic and model == "flexible":  # the modulus stays while it moves
+    targets_left = len(names) - len(elastic) > len(searched)
+    # the modulus stays while its share of the contacts moves
+    if moved and elastic and targets_left and model == "flexible":
         searched.append("young" if of_contacts else "normal_stiffness")
     return elastic, searched
+
+
+def _freed(name: str, measure: str, known: Exponents | None) -> Sequence[str]:
+    """Return the keys that a target may free, the one that moves it most first."""
+    usual = _FREED.get(name, ())
+    of = {} if known is None else known.of.get(measure, {})
+    searched = {key for keys in _FREED.values() for key in keys}
+    clear = {key: abs(one.clear) for key, one in of.items() if key in searched}
+    strong = sorted((key for key in clear if clear[key] >= _CLEAR), key=lambda key: -clear[key])
+    return strong or usual
 
 
 def _bounds(key: str, value: float) -> tuple[float, float]:
@@ -330,7 +352,7 @@ def lines(made: Proposal) -> Iterator[str]:
                 f"  outside the range of the exponents, +-{100.0 * step:g} %: {', '.join(beyond)}"
             )
     yield (
-        f"  at most  {cost.small} runs of up to {cost.grains[0]} grains, {cost.full} of up to "
-        f"{cost.grains[1]} grains and {cost.solves} elastic solves"
+        f"  at most  {cost.small} runs of up to {cost.grains[0]} grains and {cost.full} of up to "
+        f"{cost.grains[1]} grains; about {cost.solves} elastic solves"
     )
     yield f"  files    {', '.join(map(str, made.files))}"

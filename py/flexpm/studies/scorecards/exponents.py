@@ -13,12 +13,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...files import Table, load_toml
+from ...materials.keys import elastic_set_name
+from ...materials.material import Material
 
 #: Table that the script has made.
 FILE = Path(__file__).with_name("exponents.toml")
 #: Keys that are named for a measure: at most so many, with exponents from this size on [-] that
 #: exceed their standard error by this factor.
 _MOST, _LEAST, _SIGMAS = 3, 0.1, 2.0
+#: Largest factor between the ratios of materials that are near each other [-].
+_ALIKE = 2.0
 
 
 @dataclass(frozen=True)
@@ -61,6 +65,33 @@ class Exponents:
             (one for one in known if abs(one[1]) >= _LEAST), key=lambda one: -abs(one[1])
         )
         return ", ".join(f"{key} {value:+.2f}" for key, value in known[:_MOST])
+
+    def holds_for(self, material: Material) -> bool:
+        """Whether a material has about the ratios of the measured one, up to `_ALIKE`."""
+        own, other = (_ratios(one, self.model) for one in (self.measured, material))
+        return all(
+            one is not None and two is not None and max(one / two, two / one) <= _ALIKE
+            for one, two in zip(own, other, strict=True)
+        )
+
+    @property
+    def measured(self) -> Material:
+        """The material about which the exponents were measured."""
+        return Material.from_dict(self.material)
+
+
+def _ratios(material: Material, model: str) -> tuple[float | None, ...]:
+    """Return the ratios that similar materials share."""
+    law = material.elastic[elastic_set_name(model)]
+    stiffness, strength = law.normal_stiffness, material.tensile_strength
+    energies = (material.tensile_fracture_energy, material.shear_fracture_energy)
+    return (
+        material.cohesion / strength,
+        material.friction,
+        *(None if one is None else one * stiffness / strength**2 for one in energies),
+        None if law.young is None else stiffness / law.young,
+        material.weibull,
+    )
 
 
 def load(model: str, dimension: str) -> Exponents | None:

@@ -51,11 +51,11 @@ def shown(measure: Measure) -> tuple[float, str]:
 def keys_of(plan: Plan, rows: Sequence[Row]) -> list[str]:
     """Return for each row that is not met the keys that change it most, with their exponents.
 
-    A row has an empty text if it is not known or met, or if no exponents were measured for the
-    model in the dimension of the specimens.
+    A row has an empty text if it is not known or met, or if no exponents were measured near the
+    material, for the model in the dimension of the specimens.
     """
     known = exponents.load(plan.model, dimension_of(solid=plan.solid))
-    if known is None:
+    if known is None or not known.holds_for(plan.loaded):
         return [""] * len(rows)
     return [known.text(row.measure.name) if row.verdict == NOT_MET else "" for row in rows]
 

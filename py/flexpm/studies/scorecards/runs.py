@@ -97,6 +97,7 @@ class Plan:
 
     Attributes:
         material: Name of a preset, or path of a material file.
+        loaded: The material.
         model: Name of the model.
         shape: Shape of the compressed specimens.
         seeds: Seeds of the packings.
@@ -105,6 +106,7 @@ class Plan:
     """
 
     material: str
+    loaded: Material
     model: str
     shape: str
     seeds: tuple[int, ...]
@@ -236,7 +238,7 @@ def plan(
         raise InputError(
             f"scorecard: seeds = {list(seeds)}, must be one or more, each once; correct them"
         )
-    return Plan(given, model, shape, tuple(seeds), size, rock)
+    return Plan(given, material, model, shape, tuple(seeds), size, rock)
 
 
 def ended(outcome: Table, folder: Path) -> Ended:
