@@ -455,7 +455,8 @@ TEMPLATE_TEST_CASE(
     right.centre.x = 1.0;
     double most = 0.0;
     for (int k = 0; k < 50; ++k) {
-        Body<TestType> above = lowered(random_body<TestType>(random), between(random, 0.001, 0.05));
+        const double depth = between(random, 0.001, 0.05);
+        Body<TestType> above = lowered(random_body<TestType>(random), depth);
         above.centre.x = between(random, -0.4, 0.4);
         left.counted.assign(left.faces.size(), true);
         right.counted = left.counted;
