@@ -3,6 +3,7 @@
 /// energy, and its balances.
 #include "support/catch.hpp"
 #include "support/convex_bodies.hpp"
+#include "support/sphere_samples.hpp"
 
 using namespace convex_bodies;
 
@@ -351,7 +352,8 @@ TEMPLATE_TEST_CASE(
     Random random(5);
     PairOverlap<TestType> pair;
     int walls = 0;
-    for (int k = 0; k < 500; ++k) {
+    const int pairs = flexpm_test::cases("FLEXPM_PAIRS", 500);
+    for (int k = 0; k < pairs; ++k) {
         const double depth = between(random, 0.0005, 0.08);
         RandomPair<TestType> sampled(pair, random, depth);
         Body<TestType>&a = sampled.a, &b = sampled.b;
@@ -411,7 +413,7 @@ TEMPLATE_TEST_CASE(
             (8.0 * (energy(h) - energy(-h)) - (energy(2.0 * h) - energy(-2.0 * h))) / (12.0 * h);
         CHECK(std::abs(difference - slope) <= 1e-7 * all);
     }
-    CHECK(walls > 50);
+    CHECK(walls > pairs / 10);
 }
 
 TEMPLATE_TEST_CASE("each node's force is a derivative of the energy", "[overlap]", InPlane, InSpace)
@@ -491,7 +493,8 @@ TEMPLATE_TEST_CASE("pairs are born without energy and force", "[overlap]", InPla
     int born = 0, unborn = 0, forces = 0;
     double most = 0.0;
     const auto draw = [&] { return static_cast<std::size_t>(40.0 * random.next()); };
-    while (born < 5000) {
+    const int births = 10 * flexpm_test::cases("FLEXPM_PAIRS", 500);
+    while (born < births) {
         const std::size_t i = draw(), k = draw();
         Body<TestType>&a = bodies[i], &b = bodies[k];
         if (i == k) continue;
