@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy.typing as npt
 
-from ...arrays import AnyArray
 from ...dimensions import refused
 from ...files import Table
 from ...progress import Progress
@@ -170,7 +169,7 @@ class SolidShapes:
 
     @staticmethod
     def from_label_volume(
-        source: LabelVolume | AnyArray | Path | str,
+        source: LabelVolume | npt.ArrayLike | Path | str,
         *,
         voxel: float | tuple[float, float, float] | None = None,
         minerals: Mapping[int, int | None] | Path | str | None = None,
@@ -217,7 +216,7 @@ class SolidShapes:
                 than two grains.
 
         Example:
-            >>> labels = np.repeat([[[1, 1, 2, 2]]], 4, axis=1).repeat(4, axis=0)
+            >>> labels = [[[1, 1, 2, 2]] * 4] * 4  # z, y, x
             >>> two = flexpm.Specimen.from_label_volume(labels, voxel=1e-3)
             >>> two.statistics()["grains"], two.fit.totals["agreement"]
             (2, 1.0)

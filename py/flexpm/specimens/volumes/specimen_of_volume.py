@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from ..._flexpm import WeightedCells, weighted_cells
-from ...arrays import AnyArray, FloatArray, IntArray
+from ...arrays import FloatArray, IntArray
 from ...errors import InputError
 from ...files import Table
 from ...progress import Progress
@@ -160,7 +161,7 @@ def _voxels_inside(grid: Grid, frame: SolidFrame, corner: FloatArray) -> Labels:
 
 
 def volume_of(
-    source: LabelVolume | AnyArray | Path | str,
+    source: LabelVolume | npt.ArrayLike | Path | str,
     voxel: float | tuple[float, float, float] | None,
     reading: Table,
 ) -> LabelVolume:
