@@ -460,11 +460,11 @@ class Command:
     """Command lines, in this process one after the other, in a folder with a file of each kind."""
 
     def __init__(self) -> None:
-        from good_files import FILES
+        from good_files import FILES, OTHERS
 
         import flexpm
 
-        self._files = dict(FILES)
+        self._files = FILES | OTHERS
         with tempfile.TemporaryDirectory() as folder:
             for name, one in (
                 ("grains.json", flexpm.Specimen.rectangle(0.012, 0.016, 0.01)),

@@ -168,6 +168,13 @@ decides = true
 lower = 0.1
 source = "granites"
 """
+#: Labels of eight bricks of 3 x 3 x 3 voxels.
+VOLUME = np.arange(8, dtype=np.uint8).reshape(2, 2, 2).repeat(3, 0).repeat(3, 1).repeat(3, 2)
+#: Two halves of a box of 9 mm x 9 mm x 12 mm.
+GRAINS = """id,x,y,z,volume,phase
+1,0.0045,0.0045,0.003,4.86e-7,quartz
+2,0.0045,0.0045,0.009,4.86e-7,mica
+"""
 #: Content of each file, by its name.
 TEXTS = {
     "a.tess": tess_text(CORNERS, [[0, 4, 5, 3], [4, 1, 2, 5]], [(0.25, 0.5, 0), (0.75, 0.5, 0)]),
@@ -221,6 +228,8 @@ BYTES = {
     "parts.npy": saved(np.save, PHASE.astype(np.float32)),
 }
 FILES = {name: text.encode() for name, text in TEXTS.items()} | BYTES
+#: Files of commands that are not broken byte by byte here.
+OTHERS = {"volume.npy": saved(np.save, VOLUME), "grains.csv": GRAINS.encode()}
 
 
 def _phases(path: Path) -> Any:

@@ -248,8 +248,10 @@ def test_wrong_minerals_of_grains_are_refused(given):
 
 def test_a_mineral_that_the_rock_does_not_have():
     refusal("minerals = 2, must be below", flexpm.build, grid().with_minerals([2] * 24), rock())
-    with pytest.raises(flexpm.InputError, match="minerals = 0, must be below"):
-        flexpm.build(grid().with_minerals([0] * 24), Material.from_dict(BASE))
+    with pytest.raises(flexpm.InputError, match="minerals = 1, must be below"):
+        flexpm.build(grid().with_minerals([0, 1] * 12), Material.from_dict(BASE))
+    # a material without minerals is the mineral of grains that all have the first one
+    flexpm.build(grid().with_minerals([0] * 24), Material.from_dict(BASE))
 
 
 @pytest.mark.long
