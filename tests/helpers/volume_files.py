@@ -154,7 +154,7 @@ def vtk(labels, as_text=False, **options):
 
 
 def _written(writer: Any, suffix: str) -> bytes:
-    """What a writer of VTK writes into a file; it changes the locale of the process."""
+    """Return the file of a writer of VTK, which changes the locale of the process."""
     before = locale.setlocale(locale.LC_ALL)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, f"a.{suffix}")

@@ -58,10 +58,8 @@ def volume_picture(path: Path | str, report: VolumeReport) -> None:
         figure = Figure(figsize=(3.0 * _COLUMN + 0.9, sum(heights) + 2.1), layout="constrained")
         rows = figure.subplots(3, 3, gridspec_kw={"height_ratios": heights})
         for row, (right, up, through) in zip(rows, _SECTIONS, strict=True):
-            labels, cells = (
-                _section(one, right, up, through) for one in (report.regions, report.cells)
-            )
-            agree = _section(report.agree, right, up, through)
+            labels, cells = (_section(one, through) for one in (report.regions, report.cells))
+            agree = _section(report.agree, through)
             ends = [corner[right], corner[right] + sizes[right]]
             ends += [corner[up], corner[up] + sizes[up]]
             at = corner[through] + (counts[through] // 2 + 0.5) * 1e3 * report.spacing[through]
@@ -81,7 +79,7 @@ def volume_picture(path: Path | str, report: VolumeReport) -> None:
         save(figure, path)
 
 
-def _section(voxels: Voxels, right: int, up: int, through: int) -> Voxels:
+def _section(voxels: Voxels, through: int) -> Voxels:
     """Return the middle layer of an array (z, y, x), with rows upwards."""
     layer: Voxels = np.take(voxels, voxels.shape[2 - through] // 2, axis=2 - through)
     return layer

@@ -293,7 +293,7 @@ def test_a_measure_without_some_exponent_takes_no_part_in_the_step(tmp_path):
     assert whole["friction"] > 1.05 * found["friction"]
     rock = aims.of_rock(rocks.read(rock_of(tmp_path, ROCK.format(5e6, 5.2e6)))).found
     assert beginning.without_exponents(known(of=of), rock, KEYS) == ["friction_angle_low"]
-    # the elastic solution alone tells nothing of the strengths
+    # the elastic solution alone has no strengths
     of["youngs_modulus"] = {"young": Exponent(0.4)}
     assert beginning.without_exponents(known(of=of), rock, [*KEYS, "young"]) == [
         "friction_angle_low"

@@ -6,6 +6,21 @@
 
 namespace flexpm {
 
+namespace {
+
+/// Twice the area vector of a face, and the mean of its corners.
+std::array<Vector, 2> area_and_mean(const Vector* corners, int count)
+{
+    Vector twice, mean = corners[0];
+    for (int k = 1; k < count; ++k)
+        mean = mean + corners[k];
+    for (int k = 1; k + 1 < count; ++k)
+        twice = twice + cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
+    return { twice, (1.0 / count) * mean };
+}
+
+}  // namespace
+
 void InSpace::Piece::reserve(int cuts)
 {
     const std::size_t most = cuts + 4;  // each cut adds at most one corner
@@ -123,24 +138,14 @@ std::array<Vector, 2> InSpace::tangents(Vector n)
 
 ContactPlane InSpace::plane_of(const Vector* corners, int count)
 {
-    Vector twice, mean = corners[0];
-    for (int k = 1; k < count; ++k)
-        mean = mean + corners[k];
-    mean = (1.0 / count) * mean;
-    for (int k = 1; k + 1 < count; ++k)
-        twice = twice + cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
+    const auto [twice, mean] = area_and_mean(corners, count);
     const Vector normal = (1.0 / norm(twice)) * twice;
     return { normal, dot(normal, mean), true };
 }
 
 void InSpace::spread(const Vector* corners, int count, const FaceForce& on, Vector* forces)
 {
-    Vector twice, mean = corners[0];
-    for (int k = 1; k < count; ++k)
-        mean = mean + corners[k];
-    mean = (1.0 / count) * mean;
-    for (int k = 1; k + 1 < count; ++k)
-        twice = twice + cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
+    const auto [twice, mean] = area_and_mean(corners, count);
     // The plane's normal turns by the change of the area vector S = 1/2 sum x_k x x_(k+1) across
     // the normal, over |S|.
     const double squared = dot(twice, twice), along = dot(on.force, twice) / squared;

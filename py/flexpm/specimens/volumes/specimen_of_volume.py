@@ -117,8 +117,8 @@ def _cut(
     """Cut the cells by the outline.
 
     Grains of which too little is left give their place to their neighbours: less than 5 % of the
-    grain, and in a round outline less than 5 % of a mean grain. Grains that
-    are not connected with the largest part of the rock become pores.
+    grain, and in a round outline less than 5 % of a mean grain. Grains that are not connected with
+    the largest part of the rock become pores.
 
     Returns:
         The cells, grains before pores; the region of each cell; the number of loose grains.
@@ -152,12 +152,9 @@ def _voxels_inside(grid: Grid, frame: SolidFrame, corner: FloatArray) -> Labels:
         (np.arange(grid.counts[axis]) + 0.5) * grid.spacing[axis] + corner[axis] for axis in axes
     ]
     inside = off[0][None, :] ** 2 + off[1][:, None] ** 2 < (0.5 * frame.sizes[0]) ** 2
-    # voxels are (z, y, x)
-    return (
-        grid.regions[:, inside].ravel()
-        if axes == (0, 1)
-        else grid.regions.transpose(0, 2, 1)[inside].ravel()
-    )
+    # voxels are (z, y, x): layers along z of a cylinder, along y of a disc
+    layers = np.moveaxis(grid.regions, axes[1] - 1, 0)
+    return layers[:, inside].ravel()
 
 
 def volume_of(

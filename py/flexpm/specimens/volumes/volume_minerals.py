@@ -18,7 +18,7 @@ from ..labels import mineral_table
 from ..labels.picture import HOLE_NAME, indices
 from .regions import Kinds
 
-#: What the voxels of a volume are: grains, or phases whose connected regions are grains.
+#: Meaning of the labels: grains, or phases whose connected regions are grains.
 LABELS = ("grains", "phases")
 #: Names that are not meant as a mineral.
 _HOLES = ("hole", "pore", "pores", "void", "air")
@@ -40,6 +40,7 @@ def kinds_of(
             of the volume.
     """
     ids = volume.ids.tolist()
+    known = {*ids}
     voids = {0} if volume.has_voids else set()
     given = {} if minerals is None else minerals
     if not isinstance(given, Mapping):
@@ -48,7 +49,7 @@ def kinds_of(
             "{label: index}"
         )
     for label, mineral in given.items():
-        if label not in ids and mineral is None:
+        if mineral is None and label not in known:
             raise InputError(f"pore = label {quoted(label)}, is no label of the volume; correct it")
         if mineral is not None:
             where = f"Specimen.from_label_volume: minerals[{label}]"
@@ -64,13 +65,11 @@ def kinds_of(
                 "give its index, or None for a pore"
             )
         return Kinds({label: int(given[label] or 0) for label in rock}, pores)
-    phases = dict.fromkeys(ids, 0)
-    names = dict(volume.phase_names)
     if labels == "phases":
-        phases = {label: label for label in ids}
-        names = {}
+        phases, names = {label: label for label in ids}, {}
     elif volume.phases is not None:
         phases = dict(zip(ids, volume.phases.tolist(), strict=True))
+        names = dict(volume.phase_names)
     else:
         return Kinds(pores=pores)
     kinds = sorted({phases[label] for label in rock})

@@ -69,7 +69,7 @@ class VolumeReport:
             volumes: Volume of each grain of the specimen [m3].
             outline: Volume of its outline [m3].
             kept: Region of each grain.
-            found: What the regions are.
+            found: Labels, minerals and pores of the regions.
             inside: Regions of the voxels whose middles are in the outline.
             loose: Number of grains that the cut has separated from the rock.
         """
@@ -104,7 +104,7 @@ def compare(
 
     Args:
         grid: The regions.
-        found: What the regions are.
+        found: Labels, minerals and pores of the regions.
         fitted: Their cells.
         origin: Corner of the first voxel in the file [m].
     """
