@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The compiled module: what of it is no class of YADE. SI units."""
+"""Functions and classes of the compiled module, except its classes of YADE. SI units."""
 
 from collections.abc import Callable, Iterable, Sequence
 from enum import IntEnum
@@ -74,7 +74,7 @@ class GrainMeshes:
     def smallest_angle(self) -> FloatArray: ...
 
 class AssemblyInput:
-    """What `GrainSolver.assemble` takes beside the materials; arrays are copied."""
+    """Input of `GrainSolver.assemble` in addition to the materials; arrays are copied."""
 
     def __init__(
         self, tessellation: Tessellation, centres: FloatArray, radii: FloatArray, thickness: float
@@ -184,7 +184,7 @@ class FanMeshes:
     def volumes(self) -> FloatArray: ...
 
 class EnumClass_TestState(IntEnum):  # noqa: N801
-    """The plugin puts it into the module yade."""
+    """State of a test. The plugin puts this class into the module yade."""
 
     running = 0
     past_peak = 1
@@ -204,9 +204,9 @@ class StrainGauge:
     def strains(self, centres: FloatArray, displacements: FloatArray) -> tuple[float, float]: ...
 
 build_info: BuildInfo
-#: What saved scenes hold of all classes: its number, which rises with each change of it [-].
+#: Version number of the state of all classes in saved scenes; each change increases it [-].
 saved_state: int
-#: On the masses of the stability bound [-].
+#: Factor on the masses at the stability bound [-].
 mass_margin: float
 
 def contact_modulus(normal_stiffness: float, mean_diameter: float) -> float: ...

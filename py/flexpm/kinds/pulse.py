@@ -27,6 +27,6 @@ def require_pulse(height: float, diameter: float) -> None:
     if not grains >= _FEWEST_GRAINS:
         raise InputError(
             f"run: wavelength = {grains:.3g} mean diameters of the grains, must be >= "
-            f"{_FEWEST_GRAINS:g}: it is {PULSE:g} heights; use a height of "
+            f"{_FEWEST_GRAINS:g} (a wavelength is {PULSE:g} heights); use a height of "
             f"{_FEWEST_GRAINS / PULSE:g} diameters, or smaller grains"
         )

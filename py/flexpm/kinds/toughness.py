@@ -33,8 +33,8 @@ def require_span(span: float, height: float, notch: float) -> None:
     if notch > 0.0 and not span >= LEAST_SPAN * height:
         raise InputError(
             f"run: span = {span:g} m, must be >= {LEAST_SPAN * height:g} m for a notched beam of "
-            f"height {height:g} m: {LEAST_SPAN:g} times the height; the formula of the toughness "
-            "is not valid below"
+            f"height {height:g} m: {LEAST_SPAN:g} times the height; use a longer span, since the "
+            "formula of the toughness is not valid below"
         )
 
 
@@ -56,7 +56,8 @@ def require_half_disc(span: float, radius: float, notch: float) -> None:
         if not _is_within(value / size, (low, high)):
             raise InputError(
                 f"run: {name} = {value:g} m, must be {low * size:g} to {high * size:g} m: {low:g} "
-                f"to {high:g} {whole} of the disc; the formula of the toughness is valid there"
+                f"to {high:g} {whole} of the disc; give such a value, since the formula of the "
+                "toughness is valid only there"
             )
 
 

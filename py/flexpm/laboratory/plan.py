@@ -96,5 +96,5 @@ def _require_contacts(spec: RunSpec, specimen: AnySpecimen) -> None:
     if not spec.is_solid and grains < 2 and (rigid or spec.start == "static"):
         raise InputError(
             f"run: grains = {grains}, must be >= 2 for {spec.test} of model "
-            f"{spec.model} with start {spec.start}; there is no contact"
+            f"{spec.model} with start {spec.start}; use smaller grains, so that there are contacts"
         )

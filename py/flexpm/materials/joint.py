@@ -127,7 +127,7 @@ class Joint:
         if self.dilation_angle > largest:
             raise InputError(
                 f"{label} dilation_angle = {self.dilation_angle!r} degrees, must not exceed the "
-                f"friction angle, {largest:.4g} degrees"
+                f"friction angle, {largest:.4g} degrees; lower it, or raise the friction"
             )
         if self.dilation_slip is None:
             raise InputError(

@@ -247,7 +247,9 @@ class PartLayout:
         axes = _require_axes(axes, self._axes)
         if (disc if self._axes == SPACE else ball) is not None:
             name, other = ("disc", "ball") if self._axes == SPACE else ("ball", "disc")
-            raise InputError(f"hold: {name} = given, must not be given here; give a {other}")
+            raise InputError(
+                f"hold: {name}, must not be given in {len(self._axes)}D; give a {other}"
+            )
         self._require_scene("hold")
         solver = self.built.solver
         nodes, places = solver.nodePlaces(bonded=True)

@@ -130,7 +130,9 @@ class PartLoads(PartLayout):
         sets = require_parts("rotate: part", self, parts[0], HeldNodes)
         others = require_parts("rotate: part back", self, parts[1], HeldNodes)
         if not sets:
-            raise InputError("rotate: parts = none, must be at least 1")
+            raise InputError(
+                "rotate: parts = none, must be at least 1; pass a set of nodes that hold() returned"
+            )
         require_apart("rotate: part", sets, others)
         pivot = None if about is None else require_vector("rotate: about", about, axes=self._axes)
         self._require_fixed("rotate", () if about is not None else (*sets, *others))
@@ -259,7 +261,10 @@ class PartLoads(PartLayout):
         place = np.subtract(now["place"], now["displacement"])
         apart = pivot is not None and not np.allclose(place, pivot[: len(place)])
         if apart or now["floats"] != (pivot is None):
-            raise InputError(f"rotate: about = {pivot}, must be as the record has begun")
+            raise InputError(
+                f"rotate: about = {pivot}, must be as the record has begun; repeat the first call, or "
+                "make a new rig"
+            )
 
 
 def _require_soft(

@@ -366,7 +366,7 @@ def test_a_moved_set_takes_the_specimen_along(box):
     refusal("along x = 1 m/s, must be 0", held.move, (1.0, 0.0, 0.0))
     with pytest.raises(InputError, match="axes = 'yx', must be some of xyz"):
         rig.hold(box=((0, 0, 0), (1e-3, 1e-3, 1e-3)), axes="yx")
-    refusal("disc = given, must not be given here; give a ball", rig.hold, disc=((0.0, 0.0), 1.0))
+    refusal("hold: disc, must not be given in 3D; give a ball", rig.hold, disc=((0.0, 0.0), 1.0))
     refusal("is fixed already", rig.hold, ball=((0.5 * SIZE, 0.5 * SIZE, 0.5 * SIZE), 0.3 * SIZE))
 
 

@@ -89,7 +89,7 @@ REFUSED = [
     ),
     (lambda rows: [("g1", *rows[0][1:]), *rows[1:]], "table id = 'g1', must be in one row"),
     (lambda rows: [("a", "x", 0, 0, 1e-9), *rows], "line 2: x = 'x', must be a number"),
-    (lambda rows: rows[:-4], "must be that of the box, 7.68e-06 m3, within 2 %"),
+    (lambda rows: rows[:-4], "must be the volume of the box, 7.68e-06 m3, within 2 %"),
     (lambda rows: [("g0", 0.03, *rows[0][2:]), *rows[1:]], "centroid of grain g0 = 0.03, "),
     (lambda rows: rows[:1], "must have 2 grains or more"),
     (lambda rows: [*rows, ("a", *rows[7][1:])], "has the centroid of another grain"),

@@ -467,9 +467,9 @@ PHASES = [
     ('0 = "hole"\n1 = "quartz"\n', "volume phase = 2, is missing in phases.toml; so are 38 others"),
     ("", "phases = 'phases.toml', is empty"),
     ('quartz = "1"\n', "phases key = 'quartz', must be a whole number"),
-    ('255 = "hole"\n', "phases 255 = hole, is no phase or label of the volume"),
+    ('255 = "hole"\n', "phases 255 = hole, must be a phase or label of the volume"),
     ('0 = "Hole"\n', "phases '0' = 'Hole', must be 'hole' for a pore"),
-    ('1 = "a"\n01 = "b"\n', "phases key = '01', is there twice"),
+    ('1 = "a"\n01 = "b"\n', "phases key = '01', is given twice"),
 ]
 
 
@@ -495,7 +495,7 @@ REFUSED = [
     ({"shape": "ball"}, "shape = 'ball', must be one of box"),
     ({"volumes": "all"}, "volumes = 'all', must be one of fitted"),
     ({"minerals": {1: 0, 2: 1}}, "mineral of label 0 and of 37 others is missing"),
-    ({"minerals": {99: None}}, "pore = label 99, is no label of the volume"),
+    ({"minerals": {99: None}}, "pore = label 99, must be a label of the volume"),
     ({"minerals": [0, 1]}, "minerals = [0, 1], must be an index or None by label"),
     ({"minerals": {1: -1}}, "minerals[1] = -1, must be >= 0"),
     ({"minerals": dict.fromkeys(range(40))}, "all labels are pores"),

@@ -29,8 +29,8 @@ def _settle(asked: Asked) -> Mapping[str, Value]:
         raise refused(f"run: {name} = {radius:g} m, must be left out for a disc", name)
     if not least < radius <= _WIDEST * least:
         raise InputError(
-            f"run: {name} = {radius:g} m, must be > {least:g} m, the disc's radius, and <= "
-            f"{_WIDEST:g} times it; 1.5 times it by the ISRM"
+            f"run: {name} = {radius:g} m, must be > {least:g} m, the radius of the disc, and <= "
+            f"{_WIDEST:g} times this radius; the ISRM suggests 1.5 times the radius"
         )
     return {name: radius}
 

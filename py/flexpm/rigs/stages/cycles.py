@@ -190,8 +190,8 @@ class PartCycles(PartPressures):
         now = rows[-1] if rows else 0.0
         if abs(wanted[0] - now) > _SAME_WAY * max(map(abs, wanted)):
             raise InputError(
-                f"follow: row 1: displacement = {wanted[0]:g} m, must be where the parts "
-                f"are, {now:g} m"
+                f"follow: row 1: displacement = {wanted[0]:g} m, must be the present displacement "
+                f"of the parts, {now:g} m; begin the history there"
             )
 
     def _require_bearing(self, stage: str, by: str, least: float) -> None:

@@ -82,7 +82,8 @@ def required_loading(displacement: float, load: float | None) -> tuple[float, fl
     load = require_number("elastic: load", load, unit="N")
     if displacement != 0.0:
         raise InputError(
-            f"elastic: displacement = {displacement:g}, must be left out if a load is given"
+            f"elastic: displacement = {displacement:g}, must be left out if a load is given; give "
+            "one of them"
         )
     return displacement, load
 

@@ -102,8 +102,8 @@ class SolidSpecimen(PlaneOnly):
         for name in SIZES[kind]:
             if sizes.get(name) is None:
                 raise InputError(
-                    f"Specimen.from_spheres: {name} = None, must be given for a {kind}; a default "
-                    "is no size of given spheres"
+                    f"Specimen.from_spheres: {name} = None, must be given for a {kind}; pass "
+                    "it, since given spheres have no default sizes"
                 )
         given = of_spheres.sphere_rows(spheres)
         spec = SolidSpec(

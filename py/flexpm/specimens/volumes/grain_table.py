@@ -110,7 +110,7 @@ def read(path: Path, unit: str) -> GrainTable:
     if HOLE_NAME in phases:
         raise InputError(
             f"table id = {quoted(ids[phases.index(HOLE_NAME)])}: {_PHASE} = {HOLE_NAME}, must be a "
-            "mineral; a pore cannot be made of a table"
+            "mineral; leave the row out, since a table cannot contain pores"
         )
     return GrainTable(ids, metres * values[:3].T.copy(), metres**3 * values[3], phases)
 
@@ -154,7 +154,7 @@ def specimen_of(
     total = float(given.volumes.sum())
     if abs(total - solid.volume) > _UNFILLED * solid.volume:
         raise InputError(
-            f"{_WHERE}: volume of all grains = {total:g} m3, must be that of the box, "
+            f"{_WHERE}: volume of all grains = {total:g} m3, must be the volume of the box, "
             f"{solid.volume:g} m3, within {100 * _UNFILLED:g} %; correct the sizes or the unit"
         )
     outside = ((given.centroids < 0.0) | (given.centroids > [*sizes.values()])).any(axis=1)

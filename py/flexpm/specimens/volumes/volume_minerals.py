@@ -50,7 +50,9 @@ def kinds_of(
         )
     for label, mineral in given.items():
         if mineral is None and label not in known:
-            raise InputError(f"pore = label {quoted(label)}, is no label of the volume; correct it")
+            raise InputError(
+                f"pore = label {quoted(label)}, must be a label of the volume; correct it"
+            )
         if mineral is not None:
             where = f"Specimen.from_label_volume: minerals[{label}]"
             require_whole(where, mineral, Bounds(at_least=0, at_most=99))
@@ -99,7 +101,7 @@ def kinds_of_file(path: Path, volume: LabelVolume, labels: str) -> Kinds:
     unknown = [key for key, name in found.items() if name == HOLE_NAME and key not in phases]
     if unknown:
         raise InputError(
-            f"phases {unknown[0]} = hole, is no phase or label of the volume; correct {path}"
+            f"phases {unknown[0]} = hole, must be a phase or label of the volume; correct {path}"
         )
     pairs = dict(zip(ids, phases, strict=True))
     if set(found.values()) == {HOLE_NAME}:
@@ -172,7 +174,7 @@ def _names(path: Path) -> dict[int, str]:
         if not _WHOLE.fullmatch(key):
             raise InputError(f"phases key = {quoted(key)}, must be a whole number; correct it")
         if int(key) in found:
-            raise InputError(f"phases key = {quoted(key)}, is there twice; remove one of them")
+            raise InputError(f"phases key = {quoted(key)}, is given twice; remove one of them")
         found[int(key)] = require_name(f"phases {quoted(key)}", name)
         if name != HOLE_NAME and name.lower() in _HOLES:
             raise InputError(
