@@ -2,8 +2,8 @@
 """Young's modulus of a rock for grains of another size, by a formula. SI units.
 
 Grains and contacts are in series, 1/E = 1/E_grain + k / (K_n d): the smaller the grains, the more
-contacts there are along a length. k is that of an isotropic packing whose grains follow the mean
-strain, with eta the ratio of shear stiffness to normal stiffness:
+contacts there are along a length. k belongs to an isotropic packing whose grains follow the mean
+strain. eta is the ratio of shear stiffness to normal stiffness:
 
     2D: k = (3 + eta) / (2 (1 + eta)),  3D: k = (4 + eta) / (2 + 3 eta).
 """

@@ -113,9 +113,9 @@ def checked(key: str, value: object, where: str = "") -> float | str:
 def scaled(values: Mapping[str, object], ratio: float) -> Table:
     """Return values by key for grains whose diameters are multiplied by a ratio [-].
 
-    A specimen whose lengths are all multiplied by s has the same stresses at the same strains if
-    stiffnesses of contacts per area are divided by s and fracture energies are multiplied by s:
-    openings and slips are then multiplied by s. Other values stay.
+    If all lengths of a specimen are multiplied by s, it has the same stresses at the same strains
+    under two conditions: stiffnesses of contacts per area are divided by s, and fracture energies
+    are multiplied by s. Openings and slips are then multiplied by s. Other values do not change.
     """
     found: Table = dict(values)
     for key in ENERGY_KEYS:

@@ -191,9 +191,10 @@ class Material(Shown):
         joint. ``interface.MINERAL/MINERAL.KEY=VALUE`` and ``....factor.KEY=VALUE`` do the same for
         the contacts of a pair of minerals, in any order.
 
-        Brittle softening removes fracture energies that came with the material, since brittle means
-        that they equal the elastic energies. A stiffness or shear ratio of inner particles removes
-        the constants to which these would be fitted.
+        Brittle softening removes fracture energies that came with the material, because the
+        fracture energies of a brittle contact equal its elastic energies. If a stiffness or shear
+        ratio of inner particles is set, the elastic constants to which it would be fitted are
+        removed.
 
         A key that `model` does not use has no effect; a ``UserWarning`` names it.
 
@@ -236,14 +237,15 @@ class Material(Shown):
     def at_grain_size(self, mean_diameter: float) -> Material:
         """Return the material for grains of another mean diameter, by similarity.
 
-        It multiplies the normal stiffness of all elastic sets, minerals and interfaces by the mean
-        diameter of ``made_for`` over the new one, and their fracture energies by the inverse.
-        Strengths, elastic constants of the grains and density stay. A specimen with all lengths in
-        proportion to the grains then has the same elastic constants and the same stresses at the
-        same strains. With real masses, times are in proportion to the lengths, too; with gravity
-        nothing is similar. Laws of joints stay. A specimen of the same size has the same elastic
-        constants but for the scatter of packings, but its strength may change, since its size in
-        grains does.
+        The ratio r is the mean diameter of ``made_for``, divided by the new mean diameter. The
+        normal stiffness of all elastic sets, minerals and interfaces is multiplied by r, and their
+        fracture energies are divided by r. Strengths, elastic constants of the grains, density and
+        laws of joints do not change. If the lengths of a specimen change by the same factor as its
+        grains, its elastic constants do not change, and neither do its stresses at the same
+        strains. With real masses, times are proportional to the lengths. With gravity the stresses
+        change. If the size of the specimen does not change, its elastic constants stay the same
+        within the scatter of packings, but its strength may change, because the number of grains
+        changes.
 
         Args:
             mean_diameter: Mean diameter of the grains [m].

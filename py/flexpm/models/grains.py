@@ -204,10 +204,10 @@ class Model:
         return mineral_map.describe(self.specimen, self.material, self.name, self.minerals)
 
     def parting(self, state: AnySnapshot) -> tuple[int | None, float]:
-        """Loose grains, and how far any has parted from a neighbour, see `GrainSolver.parting`.
+        """Detached grains, and the largest separation of neighbours, see `GrainSolver.parting`.
 
-        The second is the increase of a distance between centres [mean diameters]. The caller passes
-        the present state, because the state of a large 3D specimen takes gigabytes.
+        The separation is the increase of the distance between two centres [mean diameters]. The
+        caller passes the present state, because the state of a large 3D specimen takes gigabytes.
         """
         apart = state.parting
         if apart is not None:  # of a solid, whose contacts never end: no grain is known to be loose
@@ -217,7 +217,7 @@ class Model:
 
     @property
     def largest_overlap(self) -> float | None:
-        """Deepest overlap of grains of a solid over the mean diameter [-]; None in 2D."""
+        """Deepest overlap of 3D grains, divided by the mean diameter [-]; None in 2D."""
         return None
 
     @property
@@ -276,7 +276,7 @@ def build(
     threads: int = 1,
     **motion: Unpack[Motion],
 ) -> Model | spheres.SphereModel:
-    """Put a specimen into YADE's scene: a body per grain, an interaction per bond, engines.
+    """Put a specimen into YADE's scene: bodies of grains, interactions of bonds, and engines.
 
     Bodies that the scene already has are kept; its engines are replaced.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a compressed specimen widens and cracks up to its peak, and what it does after it. SI units.
+"""Widening and cracking of a compressed specimen up to its peak, and its descent. SI units.
 
 Stresses are deviators: axial stress minus the least confining pressure. Signs are those of the
 record.

@@ -74,7 +74,7 @@ class Curve(Shown):
         self._rows = 0
 
     def append(self, **values: float) -> None:
-        """Add one row; every column must be named (nan where a quantity is not defined)."""
+        """Add one row with a value for each column; nan if a quantity is not defined."""
         if values.keys() != set(self.columns):
             wrong = sorted(values.keys() ^ set(self.columns))
             raise TypeError(

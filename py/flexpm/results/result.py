@@ -160,7 +160,7 @@ class Result(Shown):
 
     @property
     def without_peak(self) -> str:
-        """State that a record without a peak has reached, in words."""
+        """Description of the state that a record without a peak has reached."""
         if self.ended_by != "plateau":
             return "no strength was found"
         stress = measures.plateau_stress(self.curve)
@@ -268,7 +268,7 @@ class Result(Shown):
         self.status = self._status(diverged, peak, fast)
 
     def measure_core(self, *, solid: bool, dynamic: bool) -> None:
-        """Fill the quantities that a laboratory measures on a core, and add its volume."""
+        """Compute the quantities that a laboratory measures on a core, and add its volume."""
         record = self.curve
         found = core.crack_thresholds(record, *self._moduli(dynamic=dynamic), solid=solid)
         for name, value in found.stresses.items():
@@ -281,11 +281,11 @@ class Result(Shown):
         self.curve = core.with_volume(record, solid=solid)
 
     def measure_first_cracks(self, origin: tuple[float, float], length: float) -> None:
-        """Fill the position of the first cracks, and the stress at which they appear.
+        """Compute the position of the first cracks, and the stress at which they appear.
 
         Args:
-            origin: Position in the section where the formula of the test assumes them [m]: the
-                centre of a disc, or the tip of a notch.
+            origin: Position in the section at which the formula of the test assumes the first crack
+                [m]: the centre of a disc, or the tip of a notch.
             length: Radius of the disc, or ligament [m].
         """
         cracks = [crack for crack in self.cracks if crack.mode in MODES]
@@ -311,7 +311,7 @@ class Result(Shown):
         return self.youngs_modulus, self.poissons_ratio
 
     def measure_wave(self, wave: str, distance: float) -> None:
-        """Fill the speed of a pulse.
+        """Store the speed of a pulse.
 
         Args:
             wave: ``p`` or ``s``.

@@ -105,15 +105,15 @@ class Snapshot:
     ) -> PointStress:
         """Return the stresses at points of the specimen.
 
-        Points in deformable grains have the stress of their triangle. Rigid grains and spheres have
-        no inner stress: their points have the mean stress from the forces on the grain, and
-        ``source`` of the result names the source. A point outside, in a hole or in an erased grain
-        has nan; ``missing`` counts such points.
+        A point in a deformable grain has the stress of its triangle. Rigid grains and spheres have
+        no inner stress. A point in such a grain has the mean stress that follows from the forces on
+        the grain, and ``source`` of the result states this. A point outside, in a hole or in an
+        erased grain has nan. ``missing`` counts such points.
 
         Args:
             points: Rows of x and y, or one point [m].
-            moved: Whether points are present positions. Else they are positions in the bonded
-                state, where no crack or overlap leaves a point between two grains or in both.
+            moved: Whether points are present positions. False: they are positions in the bonded
+                state, in which there are no open cracks and no overlaps.
 
         Raises:
             InputError: for a value that is not an array of points.
@@ -158,7 +158,7 @@ class Snapshot:
 
     @property
     def cuts(self) -> IntArray:
-        """Indices of contacts that are open without a crack: notches, before a test.
+        """Indices of contacts that are open without a crack. Before a test these are the notches.
 
         Later, grains that have come into contact also have such contacts.
         """

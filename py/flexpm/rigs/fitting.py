@@ -58,8 +58,8 @@ def rig(
             - ``checkpoint_interval``: wall time between two checkpoints [s], > 0.
 
     Returns:
-        A rig of boundary nodes for deformable grains between their ends, of plates for rigid grains
-        and for discs, of plates or grips for YADE's bonded spheres.
+        The rig. It drives boundary nodes of deformable grains, plates of rigid grains and of discs,
+        and plates or grips of YADE's bonded spheres.
 
     Raises:
         InputError: for a specimen of another outline, or a folder with other content.

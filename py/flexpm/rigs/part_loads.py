@@ -37,9 +37,9 @@ class PartLoads(PartLayout):
         """Select the driven parts, and define the stress and the strain of the specimen.
 
         The record has the columns ``load`` and ``displacement`` of the driven parts. Its stress is
-        load / `area`, its strain displacement / `length`: with the defaults these are the load and
-        the displacement. If a part is under a pressure of `press`, the pressure ends, and the
-        loading continues from the present force of the part.
+        load / `area`, and its strain is displacement / `length`. With the defaults, stress and
+        strain are equal to the load and the displacement. If a part is under a pressure of `press`,
+        the pressure ends, and the loading continues from the present force of the part.
 
         Args:
             parts: Driven parts, which all move with the same velocity.
@@ -53,9 +53,9 @@ class PartLoads(PartLayout):
             machine: Stiffness of a soft machine [N/m]; None: the plate itself is driven. The
                 machine is a spring between the single driven plate, which moves along its normal,
                 and a crosshead. The loading moves the crosshead instead of the plate (deviation
-                D95). The record also gets the columns ``crosshead_displacement``, along the loading
-                [m], and ``machine_energy``, stored in the spring [J]. Its other energies are those
-                of the specimen.
+                D95). The record also gets two columns: ``crosshead_displacement``, along the
+                loading [m], and ``machine_energy``, the energy stored in the spring [J]. All other
+                energies of the record belong to the specimen.
 
         Raises:
             InputError: for an object that is not a part of this rig, a part that occurs twice,
@@ -262,8 +262,8 @@ class PartLoads(PartLayout):
         apart = pivot is not None and not np.allclose(place, pivot[: len(place)])
         if apart or now["floats"] != (pivot is None):
             raise InputError(
-                f"rotate: about = {pivot}, must be as the record has begun; repeat the first call, or "
-                "make a new rig"
+                f"rotate: about = {pivot}, must be as the record has begun; repeat the first call, "
+                "or make a new rig"
             )
 
 

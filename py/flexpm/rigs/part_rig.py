@@ -127,7 +127,7 @@ class PartRig(PartColumns, PartExcavation):
     def scales(self) -> Scales:
         """Return the quantities that determine the loading rate, from the elastic solution.
 
-        The first loading computes them; later damage does not change them.
+        The first loading computes these quantities; later damage does not change them.
 
         Raises:
             InputError: if no part loads, no part fixes the specimen, or nothing resists the load.
@@ -184,7 +184,7 @@ class PartRig(PartColumns, PartExcavation):
 
     @property
     def may_fail_at_once(self) -> bool:
-        """True: a custom test may have few contacts across; a notch alone is not a weak plane."""
+        """True: a specimen may have few contacts over its width; a notch is no weak plane."""
         if self.kind == OWN.name:
             return True
         there = self.built.specimen.spec.joint_names or ()

@@ -165,8 +165,8 @@ class Jaw:
         off = abs(long - rim)
         if off > _OFF_RIM * rim:
             raise InputError(
-                f"jaw: position = ({at[0]:g}, {at[1]:g}) m, must be on the rim, is {off:.3g} m off; "
-                "move it onto the rim"
+                f"jaw: position = ({at[0]:g}, {at[1]:g}) m, must be on the rim, is {off:.3g} m "
+                "off; move it onto the rim"
             )
         radius = require_number("jaw: radius", radius, POSITIVE, "m")
         if radius < rim * (1.0 - _SAME):

@@ -118,7 +118,7 @@ class RigReadings(ABC):
 
     Attributes:
         built: The specimen and its model.
-        tension: Whether the ends pull; else they press.
+        tension: Whether the ends pull. False: they press.
         disc: Whether the specimen is a disc between two plates.
         solid: Whether the specimen is 3D.
     """
@@ -137,7 +137,7 @@ class RigReadings(ABC):
 
     @property
     def reference_strain(self) -> float:
-        """Strain of the reference strength, at about which a brittle specimen fails [-]."""
+        """Strain at the reference strength, near which a brittle specimen fails [-]."""
         return self._schedule(Loading()).reference_strain
 
     def likely_steps(self, loading: Loading) -> int:
@@ -175,10 +175,10 @@ class RigReadings(ABC):
     def warnings(self) -> list[str]:
         """Reasons why the record is questionable, one line each.
 
-        Causes are different load and reactions, a bad energy balance, numbers that are not finite,
-        sizes that are probably in other units, and given grains of another size than those of the
-        material's calibration; for grains also a joint that deviates from its
-        line, a missed set point, and a gauge on an erased grain.
+        Reasons are: load and reactions differ, the energy balance has a large error, numbers are
+        not finite, sizes are probably in other units, or user-supplied grains have another size
+        than the grains of the material's calibration. For grains there are further reasons: a joint
+        deviates from its line, a set point is missed, or a gauge is on an erased grain.
         """
         record = self.record
         error = measures.energy_error(record, self.initial_energy)
@@ -199,7 +199,7 @@ class RigReadings(ABC):
     @property
     @abstractmethod
     def confinement(self) -> float | None:
-        """Requested confining pressure [Pa]; None without."""
+        """Requested confining pressure [Pa]; None without a pressure."""
 
     @property
     @abstractmethod

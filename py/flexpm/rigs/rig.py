@@ -94,7 +94,8 @@ class TestRig(RigReadings):
         """Press on the top and the sides until the specimen is in equilibrium; the bottom is fixed.
 
         In equilibrium the reactions and the mean stress of the specimen differ from the pressure by
-        less than 0.1 %, and so do the remaining waves. Strains are counted from this state.
+        less than 0.1 %. The remaining waves are smaller than 0.1 %, too. Strains are measured from
+        this state.
 
         Args:
             pressure: Confining pressure on all sides [Pa].
@@ -157,7 +158,7 @@ class TestRig(RigReadings):
 
     @property
     def warnings(self) -> list[str]:
-        """Reasons why the record is questionable, and a loading that ended while the load rose."""
+        """Reasons why the record is questionable, e.g. a load that still rose at the end."""
         rose = [doubts.of_rise(self._reached)] if ended_rising(self.stages, self.record) else []
         return super().warnings + rose
 
@@ -182,12 +183,11 @@ class TestRig(RigReadings):
     def stress_to(self, stress: float, rate: float = 1.0) -> None:
         """Load or unload until the record's axial stress has reached `stress`.
 
-        Grains are loaded as by ``Loading(kind="waiting")``, because at a steady motion damping
-        would cause a drag and an uneven load. The loading slows down near the stress. The stage
-        ends within 0.5 % of the stress, or within 0.1 % of the largest earlier stress if that is
-        more. Ends that
-        only press do not pull: in a compression test the stage ends at zero stress, with one line
-        on stderr.
+        Grains are loaded as by ``Loading(kind="waiting")``, because in a steady motion damping
+        would cause a drag and an uneven load. The loading slows down near the requested stress. The
+        stage ends when the stress is reached within a tolerance: 0.5 % of the requested stress, or
+        0.1 % of the largest earlier stress if this is more. Ends without bond cannot pull: in a
+        compression test the stage ends at zero stress, with one line on stderr.
 
         Args:
             stress: Axial stress at the end of the stage [Pa].
@@ -231,7 +231,7 @@ class TestRig(RigReadings):
         return save(self, self.stages, folder, report=report, step_time=self._runner.step_time)
 
     def keep_start(self, start: LoadingStart) -> None:
-        """Keep the scene from which slower loadings restart, unless it is kept or has passed.
+        """Store the scene from which slower loadings restart, unless it is stored or has passed.
 
         Scenes that cannot resume at any step are not kept: their test restarts from the beginning.
         """

@@ -36,12 +36,12 @@ class Tested:
 
 @dataclass(frozen=True)
 class RunInputs(TestOptions, LoadingOptions, GrainOptions, Tested):
-    """The inputs of a run as one flat list of fields. Threads and folders are not among them.
+    """The inputs of a run as one flat list of fields, without threads and folders.
 
-    The default of a field that was added later stands for all earlier runs, so that no key changes.
-    By default, start and loading follow from test and model. If the rate is halved, the rate here
-    is the rate of the first loading. A damping of None is 0.7 with scaled masses and 0 with real
-    masses; a specimen under a confining pressure settles with at least 0.7.
+    If a field was added in a later version, earlier runs have its default, so that no key changes.
+    By default, start and loading follow from test and model. If the rate is halved during a run,
+    ``rate`` is the rate of the first loading. A damping of None is 0.7 with scaled masses and 0
+    with real masses; a specimen under a confining pressure settles with at least 0.7.
     """
 
     def to_json(self) -> Table:

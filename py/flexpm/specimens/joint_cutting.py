@@ -119,15 +119,16 @@ class Excavatable(ABC):
     def with_excavations(self, excavations: Mapping[str, object]) -> Self:
         """Return the specimen cut along closed lines, within which a test excavates later (D77).
 
-        The lines are cut as those of joints are (D35), and are among them under the name
-        ``excavation:NAME``; their contacts have the law and the strength of the rock.
-        `PartRig.excavate` takes the cells within away. Joints that are cut first keep their edges.
+        The lines are cut in the same way as joints (D35), and are listed among the joints under the
+        name ``excavation:NAME``. Their contacts have the law and the strength of the rock.
+        `PartRig.excavate` removes the cells within a line. Joints that are cut first keep their
+        edges.
 
         Args:
             excavations: By its name a polygon, rows x, y, or a circle, ``((x, y), radius)`` [m].
 
         Returns:
-            Cells in their order, second parts of cut cells last.
+            The specimen; its cells keep their order, and second parts of cut cells come last.
 
         Raises:
             InputError: for a line that crosses itself, leaves the specimen, or meets no edge of a

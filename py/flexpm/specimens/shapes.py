@@ -245,8 +245,8 @@ class PlaneShapes(ABC):
                 twice.
 
         Raises:
-            InputError: for a file that is not such a map or is broken, with its line, and as
-                ``from_labels``.
+            InputError: for a file that is broken or is not such a map, with the number of the line,
+                and as ``from_labels``.
         """
         options = {"misorientation": misorientation, "unindexed": unindexed, "phases": phases}
         options |= {"edge": edge, "smallest": smallest}

@@ -208,7 +208,7 @@ class SpecimenSpec:
 
     @property
     def joints_with_law(self) -> list[str]:
-        """Names of the joints, without lines of excavations, which are rock until then."""
+        """Names of the joints, without lines of excavations, which are rock until excavated."""
         return [name for name in self.joint_names or () if not name.startswith(EXCAVATION)]
 
     @property

@@ -91,7 +91,7 @@ class SolidSnapshot:
 
     @property
     def contact(self) -> IntArray:
-        """Number of each contact, which it keeps."""
+        """Index of each contact, which never changes."""
         return np.arange(len(self.contact_grains))
 
     @cached_property
@@ -101,7 +101,7 @@ class SolidSnapshot:
 
     @property
     def point_number(self) -> IntArray:
-        """Number of each point in its contact, from 0."""
+        """Index of each point in its contact, from 0."""
         return np.arange(len(self.point_contact)) - self.point_offsets[self.point_contact]
 
     @cached_property
@@ -111,14 +111,14 @@ class SolidSnapshot:
         return connected(self.contact_grains, bonded, self.volumes)
 
     def any_of(self, chosen: BoolArray) -> BoolArray:
-        """Whether any point of each contact is among those chosen (P,); (C,)."""
+        """Return for each contact (C,) whether any of its points is chosen (P,)."""
         found: BoolArray = np.zeros(len(self.contact_grains), dtype=bool)
         found[self.point_contact[chosen]] = True
         return found
 
     @property
     def grain_areas(self) -> FloatArray:
-        """Volume of each grain [m3], the measure of the size of fragments."""
+        """Volume of each grain [m3], by which fragments are measured."""
         return self.volumes
 
     @property
@@ -140,7 +140,7 @@ class SolidSnapshot:
 
     @property
     def parting(self) -> float:
-        """Largest growth of the distance between the centres of bonded grains [m]."""
+        """Largest increase of the distance between the centres of bonded grains [m]."""
         before = self.reference[self.node_offsets[1:] - 1]
         first, second = self.contact_grains.T
         grown = _lengths(self.centres[second] - self.centres[first]) - _lengths(

@@ -61,8 +61,8 @@ def read(path: Path) -> OrientationMap:
     suffix = path.suffix.lower()
     if suffix not in _READERS:
         raise InputError(
-            f"ebsd = {quoted(str(path))}, must end in {' or '.join(_READERS)}; export the map in one "
-            "of these formats"
+            f"ebsd = {quoted(str(path))}, must end in {' or '.join(_READERS)}; export the map in "
+            "such a format"
         )
     return _READERS[suffix](path)
 

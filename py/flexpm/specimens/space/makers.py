@@ -184,7 +184,7 @@ class SolidShapes:
     ) -> SolidSpecimen:
         """Make a 3D specimen of the labels of voxels: one convex cell for each grain.
 
-        The voxels of a label that are connected by sides are a grain. The cells are those of a
+        Voxels of one label that are connected by their sides form a grain. The cells belong to a
         power diagram that agrees with as many voxels as possible (doc/volumes).
 
         Args:
@@ -194,8 +194,8 @@ class SolidShapes:
                 volume, see ``--minerals`` in doc/volumes. If it is None or has pores only, the
                 phases of the file are minerals, if it has any. Label 0 of ``.tesr`` and
                 ``.dream3d`` files, the void, is a pore.
-            least_voxels: Smallest number of voxels of a grain or pore; smaller ones are merged with
-                a neighbour.
+            least_voxels: Smallest number of voxels of a grain or pore; smaller regions are merged
+                with a neighbour.
             watershed: Divide the regions of a label where they are narrow, for labels of phases.
             shape: ``box``: the whole volume. ``cylinder`` about z or ``solid-disc`` about y, cut
                 from the middle of the volume.
@@ -212,7 +212,7 @@ class SolidShapes:
             The specimen, grains in the order of their labels. ``fit`` compares it with the volume.
 
         Raises:
-            InputError: for a file or a value that is refused, a label without a mineral, or less
+            InputError: for a file or a value that is rejected, a label without a mineral, or fewer
                 than two grains.
 
         Example:
@@ -245,8 +245,9 @@ class SolidShapes:
     ) -> SolidSpecimen:
         """Make a box of grains with given volumes and centroids: a Laguerre tessellation.
 
-        Volumes are exact within 1e-7, before short edges are collapsed. Centroids are as near as
-        a Laguerre tessellation with these volumes allows after some steps.
+        Volumes are exact within 1e-7, before short edges are collapsed. An iteration moves the
+        centroids towards the given centroids, as far as a Laguerre tessellation with these volumes
+        allows.
 
         Args:
             path: A CSV file with the columns id, x, y, z, volume and, optionally, phase. Centroids
@@ -264,9 +265,9 @@ class SolidShapes:
             which the file names them.
 
         Raises:
-            InputError: for a file or value that is refused, grains outside the box, or volumes that
-                differ from the volume of the box by more than 2 %; smaller differences are scaled
-                away.
+            InputError: for a file or value that is rejected, grains outside the box, or volumes
+                whose sum differs from the volume of the box by more than 2 %. If the difference is
+                smaller, the volumes are scaled.
         """
         from ..volumes.grain_table import read, specimen_of
 

@@ -229,7 +229,7 @@ class SolidSpecimen(PlaneOnly):
     def thickness(self) -> float:
         """Depth of a disc or half a disc, else the square root of the area of the section [m].
 
-        Multiplied by the width of the scales it is the area to which the stress refers.
+        This value times the width of the scales is the area to which the stress refers.
         """
         if "height" not in self.dimensions:
             return self.dimensions["depth"]

@@ -63,8 +63,8 @@ def calibrate(
 
     Args:
         measure: Function that takes a `Material`, runs tests with it, and returns numbers by name;
-            numbers that are not targets are ignored. A set counts as unmeasured if the function
-            raises ``SimulationError`` or returns None or nan.
+            numbers that are not targets are ignored. If the function raises ``SimulationError`` or
+            returns None or nan, the material counts as not measured.
         free: Bounds of each key that may change, as in ``[free]`` of a file, SI units.
         targets: Per measure its value, or a table with ``value``, ``tolerance`` (0.05) and
             ``weight`` (1), as in ``[target]``. Values are > 0.

@@ -94,7 +94,7 @@ class Scorecard:
 def scorecard(
     material: Path | str, out: Path | str = "scorecard", **options: Unpack[ScorecardOptions]
 ) -> Scorecard:
-    """Run laboratory tests with a material, and compare their results with those of a rock.
+    """Run laboratory tests with a material, and compare the results with measured values of a rock.
 
     The runs are those of a study: finished runs are not repeated, interrupted runs resume.
 
