@@ -158,7 +158,7 @@ def test_the_listing_of_solids_in_the_scene(capsys):
     from yade import O  # after flexpm, which finds it
 
     O.reset()
-    words = "the next step rejects such a scene::"
+    words = "rejects such a scene::"
     exec(code_after("doc/yade_interoperability.rst", words), {"flexpm": flexpm, "O": O})
     assert capsys.readouterr().out.startswith("Vector3(")
 
