@@ -312,6 +312,13 @@ def fit_labels(
     start: tuple[FloatArray, FloatArray, FloatArray],
     options: tuple[float, float],
 ) -> tuple[FloatArray, FloatArray]: ...
+def raise_levels(
+    voxels: tuple[tuple[int, int, int], FloatArray, IntArray, int],
+    rivals: tuple[IntArray, IntArray],
+    start: tuple[FloatArray, FloatArray, FloatArray],
+    least: IntArray,
+    most: int,
+) -> tuple[FloatArray, bool]: ...
 def fan_meshes(cells: Polyhedra) -> FanMeshes: ...
 def solid_constants(
     cells: Polyhedra,

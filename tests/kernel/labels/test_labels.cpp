@@ -3,6 +3,7 @@
 /// labels.
 #include <flexpm/kernel/labels/given_volumes.hpp>
 #include <flexpm/kernel/labels/label_fit.hpp>
+#include <flexpm/kernel/labels/label_guard.hpp>
 #include <flexpm/kernel/labels/voxel_cells.hpp>
 
 #include "support/sphere_samples.hpp"
@@ -209,4 +210,118 @@ TEST_CASE("the fit of labels finds the cells that made them", "[space]")
             rival = rival == 3 ? 4 : rival;
         REQUIRE_THROWS_WITH(fit_labels(samples, scores, {}), Catch::Contains("rivals of label 3"));
     }
+}
+
+namespace {
+
+/// Voxels of the unit cube, all labels compete for each voxel.
+LabelledGrid grid_of(std::array<int, 3> counts, std::vector<int> labels, int count)
+{
+    const VoxelGrid grid { counts, { 1.0, 1.0, 1.0 }, {} };
+    LabelledGrid voxels { grid, std::move(labels), {}, {}, count };
+    const LabelSamples samples = samples_of(voxels.labels, grid, count);
+    voxels.rival_offsets = samples.rival_offsets;
+    voxels.rivals = samples.rivals;
+    return voxels;
+}
+
+/// Score of |x - p|^2 for each of some points.
+LabelScores scores_of(const std::vector<Vector>& points)
+{
+    LabelScores scores;
+    for (const Vector p : points) {
+        scores.centres.push_back(p);
+        scores.slopes.push_back(p);
+        scores.levels.push_back(dot(p, p));
+    }
+    return scores;
+}
+
+/// Number of voxels of each label in which it has the largest score.
+std::vector<int> own_voxels(const LabelledGrid& voxels, const LabelScores& scores)
+{
+    const LabelSamples samples = samples_of(voxels.labels, voxels.grid, scores.labels());
+    std::vector<int> found(scores.labels(), 0);
+    for (std::size_t v = 0; v < voxels.labels.size(); ++v) {
+        int most = 0;
+        for (int c = 1; c < scores.labels(); ++c)
+            if (scores.at(c, samples.points[v]) > scores.at(most, samples.points[v])) most = c;
+        if (most == voxels.labels[v]) ++found[most];
+    }
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("a level rises by what its label lacks", "[space]")
+{
+    // points at 2 and 8: equal levels divide the row of ten voxels at 5, and a level higher by h
+    // moves this place by h / 12
+    const LabelledGrid voxels = grid_of({ 10, 1, 1 }, { 0, 0, 0, 0, 0, 0, 0, 1, 1, 1 }, 2);
+    LabelScores scores = scores_of({ { 2.0, 0.5, 0.5 }, { 8.0, 0.5, 0.5 } });
+    const double before = scores.levels[0];
+    const RaisedLevels found = raise_levels(voxels, scores, { 7, 3 }, 10);
+    REQUIRE(found.reached);
+    REQUIRE(found.levels[0] - before == Approx(12.0 * 1.5).epsilon(1e-6));
+    REQUIRE(found.levels[1] == scores.levels[1]);
+    REQUIRE(raise_levels(voxels, scores, { 5, 3 }, 10).levels == scores.levels);
+}
+
+TEST_CASE("labels get their voxels by the least levels", "[space]")
+{
+    const int count = 12;
+    Random random(5);
+    std::vector<Vector> points;
+    std::vector<double> lower;
+    for (int i = 0; i < count; ++i) {
+        points.push_back({ 9.0 * random.next(), 8.0 * random.next(), 7.0 * random.next() });
+        lower.push_back(8.0 * random.next());
+    }
+    LabelScores scores = scores_of(points);
+    LabelledGrid voxels = grid_of({ 9, 8, 7 }, std::vector<int>(504, 0), count);
+    // labels of cells of other sizes, and a tenth of them drawn
+    const LabelSamples samples = samples_of(voxels.labels, voxels.grid, count);
+    for (std::size_t v = 0; v < voxels.labels.size(); ++v) {
+        int most = static_cast<int>(count * random.next());
+        for (int c = 0; c < count && v % 10 != 0; ++c)
+            if (scores.at(c, samples.points[v]) > scores.at(most, samples.points[v])) most = c;
+        voxels.labels[v] = most;
+    }
+    // what some levels reach can be reached
+    const std::vector<int> least = own_voxels(voxels, scores);
+    REQUIRE(*std::max_element(least.begin(), least.end()) > 10);
+    for (int i = 0; i < count; ++i)
+        scores.levels[i] -= lower[i];
+    const RaisedLevels found = raise_levels(voxels, scores, least, 1000);
+    REQUIRE(found.reached);
+    LabelScores raised = scores;
+    raised.levels = found.levels;
+    const std::vector<int> own = own_voxels(voxels, raised);
+    int number = 0;
+    for (int i = 0; i < count; ++i) {
+        CAPTURE(i);
+        REQUIRE(own[i] >= least[i]);
+        // and no level is higher than that it must be
+        if (found.levels[i] == scores.levels[i]) continue;
+        ++number;
+        LabelScores less = raised;
+        less.levels[i] -= 3e-6;
+        REQUIRE(own_voxels(voxels, less)[i] < least[i]);
+    }
+    REQUIRE(number >= count / 2);
+}
+
+TEST_CASE("levels that no label can have end, and arrays of other sizes are refused", "[space]")
+{
+    // two labels that alternate: no half space has all voxels of one of them
+    LabelledGrid voxels = grid_of({ 6, 1, 1 }, { 0, 1, 0, 1, 0, 1 }, 2);
+    const LabelScores scores = scores_of({ { 1.0, 0.5, 0.5 }, { 5.0, 0.5, 0.5 } });
+    REQUIRE_FALSE(raise_levels(voxels, scores, { 3, 3 }, 20).reached);
+    REQUIRE_THROWS_WITH(raise_levels(voxels, scores, { 3 }, 20), Catch::Contains("start"));
+    voxels.labels[3] = 2;
+    REQUIRE_THROWS_WITH(raise_levels(voxels, scores, { 3, 3 }, 20), Catch::Contains("labels"));
+    // labels that share their voxels do not compete
+    voxels.labels[3] = 1;
+    voxels.separate = 0;
+    REQUIRE(raise_levels(voxels, scores, { 3, 3 }, 20).levels == scores.levels);
 }

@@ -5,6 +5,7 @@
 
 #include <flexpm/kernel/labels/given_volumes.hpp>
 #include <flexpm/kernel/labels/label_fit.hpp>
+#include <flexpm/kernel/labels/label_guard.hpp>
 #include <flexpm/kernel/labels/voxel_cells.hpp>
 
 #include <memory>
@@ -70,13 +71,23 @@ namespace {
 		return copied(flexpm::weights_of_volumes(given, solid, valuesOf<double>(volumes, "volumes"), tolerance), 0);
 	}
 
-	py::object cellsOfVoxels(py::object points, py::object weights, const WeightedCells& cells, py::tuple counts, py::object box)
+	flexpm::VoxelGrid voxelGrid(const py::tuple& counts, const py::object& box)
 	{
 		const auto        rows = vectorsOf(box, "box");
 		flexpm::VoxelGrid grid { {}, rows.at(0), rows.at(1) };
 		for (int axis = 0; axis < 3; ++axis)
 			grid.counts[axis] = py::extract<int>(counts[axis]);
-		return copied(flexpm::cells_of_voxels(weightedPoints(points, weights), cells.complex, grid), 0);
+		return grid;
+	}
+
+	flexpm::LabelScores labelScores(const py::tuple& start)
+	{
+		return { vectorsOf(start[0], "centres"), vectorsOf(start[1], "slopes"), valuesOf<double>(start[2], "levels") };
+	}
+
+	py::object cellsOfVoxels(py::object points, py::object weights, const WeightedCells& cells, py::tuple counts, py::object box)
+	{
+		return copied(flexpm::cells_of_voxels(weightedPoints(points, weights), cells.complex, voxelGrid(counts, box)), 0);
 	}
 
 	py::tuple fitLabels(py::tuple samples, py::tuple rivals, py::tuple start, py::tuple options)
@@ -86,12 +97,22 @@ namespace {
 			                           valuesOf<double>(samples[2], "weights"),
 			                           valuesOf<int>(rivals[0], "offsets"),
 			                           valuesOf<int>(rivals[1], "rivals") };
-		const flexpm::LabelScores  from { vectorsOf(start[0], "centres"), vectorsOf(start[1], "slopes"), valuesOf<double>(start[2], "levels") };
 		flexpm::LabelFitOptions    how;
 		how.temperature  = py::extract<double>(options[0]);
 		how.size         = py::extract<double>(options[1]);
-		const auto found = flexpm::fit_labels(given, from, how);
+		const auto found = flexpm::fit_labels(given, labelScores(start), how);
 		return py::make_tuple(rowsOf(found.slopes), copied(found.levels, 0));
+	}
+
+	py::tuple raiseLevels(py::tuple voxels, py::tuple rivals, py::tuple start, py::object least, int most)
+	{
+		const flexpm::LabelledGrid given { voxelGrid(py::extract<py::tuple>(voxels[0]), voxels[1]),
+			                               valuesOf<int>(voxels[2], "labels"),
+			                               valuesOf<int>(rivals[0], "offsets"),
+			                               valuesOf<int>(rivals[1], "rivals"),
+			                               py::extract<int>(voxels[3]) };
+		const auto                 found = flexpm::raise_levels(given, labelScores(start), valuesOf<int>(least, "least"), most);
+		return py::make_tuple(copied(found.levels, 0), found.reached);
 	}
 
 } // namespace
@@ -123,6 +144,12 @@ void register_label_bindings()
 	        (py::arg("samples"), py::arg("rivals"), py::arg("start"), py::arg("options")),
 	        "Fit scores 2 slope.(x - centre) + level to labels of voxels; return slopes and levels. samples: points, labels and weights of voxels; rivals: "
 	        "offsets of each label and the labels that compete for its voxels; start: centres, slopes and levels; options: temperature and mean radius.");
+	py::def("raise_levels",
+	        raiseLevels,
+	        (py::arg("voxels"), py::arg("rivals"), py::arg("start"), py::arg("least"), py::arg("most")),
+	        "Raise levels of scores until each label has at least so many of its voxels; return the levels, and whether this is reached. voxels: counts, box "
+	        "as for cells_of_voxels, the label of each voxel, and the first of the labels that share their voxels; rivals, start: as for fit_labels; least: "
+	        "voxels of each label; most: raises for each label in the mean.");
 }
 
 } // namespace flexpm_bindings

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,7 @@ from ..._flexpm import (
     WeightedCells,
     cells_of_voxels,
     fit_labels,
+    raise_levels,
     weighted_cells,
     weights_of_volumes,
 )
@@ -29,8 +31,12 @@ _TEMPERATURES = (1.0, 0.25, 0.0625)
 #: Most voxels of a region in the fit: at its boundary, and of every tenth one inside.
 _MOST_AT_BOUNDARY, _MOST_INSIDE, _TENTH = 400, 100, 10
 #: Rounds of larger weights of regions that lost this share of their voxels against the start [-],
-#: the factor on their weights, and the most that the whole agreement may fall for them [-].
-_ROUNDS, _LOST, _WEIGHT, _GIVEN_UP = 3, 0.01, 1.5, 0.005
+#: and the factor on their weights.
+_ROUNDS, _LOST, _WEIGHT = 3, 0.01, 1.5
+#: Most raises of a level for each region in the mean; volumes of 60 to 90 grains need up to 16.
+_RAISES = 50
+#: Shares of the start in mixtures that are tried if no fit can be raised [-].
+_MIXTURES = (0.25, 0.5, 0.75)
 #: Largest relative error of exact volumes [-].
 _EXACT = 1e-7
 
@@ -44,7 +50,8 @@ class Trial:
         weights: Weight of each point [m2].
         cells: The cells.
         found: Cell of each voxel, (z, y, x).
-        stage: ``start``, the number of the stage of the fit, or ``guard`` with a number.
+        stage: ``start``, the number of the stage of the fit, ``guard`` with the number of a round,
+            or a mixture of one of them with the start.
         agreement: Share of the voxels that are in the cell of their region [-].
         own: The same share of each region [-].
         scores: Slopes and levels of the fit, see ``fit_labels``.
@@ -160,14 +167,16 @@ def fit(grid: Grid, progress: Progress | None = None, *, exact: bool = False) ->
     """Fit a power cell to each region of a grid.
 
     The start has the centroids and the radii of the regions. Three stages of a softer to a sharper
-    fit follow, and the stage with most voxels in the cells of their regions is taken, the start
-    included. Then regions that lost voxels against the start get a larger weight, up to three
-    times, if the whole agreement falls little.
+    fit follow, and up to three rounds in which regions that lost voxels against the start have a
+    larger weight. In each result the levels are raised until no region has fewer voxels in its
+    cell than at the start. The result with most voxels in the cells of their regions is taken, the
+    start included.
 
     Args:
         grid: The regions, two or more.
         progress: Receives the stages.
-        exact: Change the weights until each cell has the volume of its region.
+        exact: Change the weights until each cell has the volume of its region; regions may then
+            have fewer voxels than at the start.
 
     Returns:
         The cells.
@@ -177,34 +186,38 @@ def fit(grid: Grid, progress: Progress | None = None, *, exact: bool = False) ->
     """
     problem = _Problem.of(grid)
     start = best = problem.start()
-    scores = best.scores
+    here, scores = start, start.scores
     for stage, width in enumerate(_TEMPERATURES, start=1):
         if progress is not None:
             progress(stage - 1, len(_TEMPERATURES), f"fit of {grid.count} cells, stage {stage}")
-        here = problem.fitted(scores, width, str(stage))
-        scores = here.scores
-        if here.agreement > best.agreement:
-            best = here
-    best = _guarded(problem, start, best)
+        trial = problem.fitted(scores, width, str(stage))
+        scores = trial.scores
+        here = max(here, trial, key=_agreement)
+        best = max(best, problem.raised(trial, start), key=_agreement)
+    for trial in _rounds(problem, start, here):
+        best = max(best, problem.raised(trial, start), key=_agreement)
+    for share in _MIXTURES if best is start and here is not start else ():
+        trial = problem.mixture(here, start, share)
+        best = max(best, problem.raised(trial, start), key=_agreement)
     if exact:
         best = _with_volumes(problem, best)
     return Fitted(best, start)
 
 
-def _guarded(problem: _Problem, start: Trial, best: Trial) -> Trial:
-    """Give more weight to regions that agree less than at the start; return the best trial."""
-    factors, least = np.ones(problem.grid.count), best.agreement - _GIVEN_UP
-    for round_number in range(1, _ROUNDS + 1):
-        lost = np.maximum(start.own - best.own, 0.0)
-        if best.stage == start.stage or not (lost > _LOST).any():
-            break
-        factors[lost > _LOST] *= _WEIGHT
-        here = problem.fitted(best.scores, _TEMPERATURES[-1], f"guard {round_number}", factors)
-        gain = float(lost.sum() - np.maximum(start.own - here.own, 0.0).sum())
-        if gain <= 0.0 or here.agreement < max(least, start.agreement):
-            break
-        best = here
-    return best
+def _agreement(trial: Trial) -> float:
+    return trial.agreement
+
+
+def _rounds(problem: _Problem, start: Trial, best: Trial) -> Iterator[Trial]:
+    """Fit with more and more weight of the regions that agree less than at the start."""
+    factors, here = np.ones(problem.grid.count), best
+    for number in range(1, _ROUNDS + 1):
+        lost = start.own - here.own > _LOST
+        if here is start or not lost.any():
+            return
+        factors[lost] *= _WEIGHT
+        here = problem.fitted(here.scores, _TEMPERATURES[-1], f"guard {number}", factors)
+        yield here
 
 
 @dataclass(frozen=True, eq=False)
@@ -250,6 +263,36 @@ class _Problem:
         start = (self.centroids, *scores)
         found = call(fit_labels, (points, labels, weights), self.rivals, start, options)
         return self._measured(found, stage)
+
+    def raised(self, trial: Trial, start: Trial) -> Trial:
+        """Raise levels until no region has fewer voxels than at the start; else return the start.
+
+        A region whose level rises gets voxels from its neighbours, which gained most of them from
+        it before.
+        """
+        if (trial.own >= start.own).all():
+            return trial
+        grid = self.grid
+        box = np.vstack((grid.spacing, np.zeros(3)))
+        voxels = (grid.counts, box, grid.regions.ravel(), grid.grains)
+        least = np.rint(start.own * grid.voxels()).astype(np.int32)
+        slopes, levels = trial.scores
+        scores = (self.centroids, slopes, levels)
+        levels, reached = call(raise_levels, voxels, self.rivals, scores, least, _RAISES)
+        if not reached:
+            return start
+        # a region that is no rival may have taken a voxel
+        found = self._measured((slopes, levels), trial.stage)
+        return found if (found.own >= start.own).all() else start
+
+    def mixture(self, trial: Trial, start: Trial, share: float) -> Trial:
+        """Mix the scores of a trial with a share of those of the start."""
+        (slopes, levels), (others, bases) = trial.scores, start.scores
+        off, away = slopes - slopes.mean(axis=0), others - others.mean(axis=0)
+        # scores may be multiplied by a number: those of the trial get the scale of the start
+        factor = (1.0 - share) * float(np.sqrt(np.sum(away * away) / np.sum(off * off)))
+        mixed = (factor * slopes + share * others, factor * levels + share * bases)
+        return self._measured(mixed, f"{trial.stage} with {share:g} of start")
 
     def _measured(self, scores: Scores, stage: str) -> Trial:
         """Make the cells of scores."""
