@@ -33,8 +33,8 @@ void require_sound(
     require(voxels.labels.size() == size
             && std::all_of(voxels.labels.begin(), voxels.labels.end(), in_range),
         "labels", "must be an index of the start for each voxel");
-    require(start.centres.size() == labels && start.slopes.size() == labels
-            && least.size() == labels,
+    require(
+        start.centres.size() == labels && start.slopes.size() == labels && least.size() == labels,
         "start", "must be a centre, a slope, a level and a number of voxels for each label");
     require(voxels.rival_offsets.size() == labels + 1 && voxels.rival_offsets.front() == 0
             && std::is_sorted(voxels.rival_offsets.begin(), voxels.rival_offsets.end())
@@ -131,8 +131,7 @@ private:
         const int row = voxel / g.counts[0];
         const int i = voxel % g.counts[0], j = row % g.counts[1], k = row / g.counts[1];
         return scores.at(label,
-            g.corner
-                + Vector { (i + 0.5) * g.size.x, (j + 0.5) * g.size.y, (k + 0.5) * g.size.z });
+            g.corner + Vector { (i + 0.5) * g.size.x, (j + 0.5) * g.size.y, (k + 0.5) * g.size.z });
     }
 
     /// Let a rival compete for the voxels of a label.
@@ -172,8 +171,8 @@ private:
         }
         const auto wanted = static_cast<std::size_t>(std::max(least[label], 0));
         if (won >= wanted || lacks.empty()) return 0.0;
-        const auto last = lacks.begin()
-            + static_cast<std::ptrdiff_t>(std::min(wanted - won, lacks.size()) - 1);
+        const auto last =
+            lacks.begin() + static_cast<std::ptrdiff_t>(std::min(wanted - won, lacks.size()) - 1);
         std::nth_element(lacks.begin(), last, lacks.end());
         return *last;
     }
@@ -181,8 +180,8 @@ private:
 
 }  // namespace
 
-RaisedLevels raise_levels(const LabelledGrid& voxels, const LabelScores& start,
-    const std::vector<int>& least, int most)
+RaisedLevels raise_levels(
+    const LabelledGrid& voxels, const LabelScores& start, const std::vector<int>& least, int most)
 {
     require_sound(voxels, start, least);
     return LevelRaise(voxels, start, least).run(most);

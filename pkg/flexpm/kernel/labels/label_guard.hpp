@@ -34,7 +34,7 @@ struct RaisedLevels {
 /// @param least  number of voxels of each label
 /// @param most   largest number of raises for each label in the mean
 /// @throws std::invalid_argument  for arrays of unlike sizes or indices out of range
-RaisedLevels raise_levels(const LabelledGrid& voxels, const LabelScores& start,
-    const std::vector<int>& least, int most);
+RaisedLevels raise_levels(
+    const LabelledGrid& voxels, const LabelScores& start, const std::vector<int>& least, int most);
 
 }  // namespace flexpm

@@ -107,10 +107,10 @@ namespace {
 	py::tuple raiseLevels(py::tuple voxels, py::tuple rivals, py::tuple start, py::object least, int most)
 	{
 		const flexpm::LabelledGrid given { voxelGrid(py::extract<py::tuple>(voxels[0]), voxels[1]),
-			                               valuesOf<int>(voxels[2], "labels"),
-			                               valuesOf<int>(rivals[0], "offsets"),
-			                               valuesOf<int>(rivals[1], "rivals"),
-			                               py::extract<int>(voxels[3]) };
+			                           valuesOf<int>(voxels[2], "labels"),
+			                           valuesOf<int>(rivals[0], "offsets"),
+			                           valuesOf<int>(rivals[1], "rivals"),
+			                           py::extract<int>(voxels[3]) };
 		const auto                 found = flexpm::raise_levels(given, labelScores(start), valuesOf<int>(least, "least"), most);
 		return py::make_tuple(copied(found.levels, 0), found.reached);
 	}
@@ -147,8 +147,10 @@ void register_label_bindings()
 	py::def("raise_levels",
 	        raiseLevels,
 	        (py::arg("voxels"), py::arg("rivals"), py::arg("start"), py::arg("least"), py::arg("most")),
-	        "Raise levels of scores until each label has at least so many of its voxels; return the levels, and whether this is reached. voxels: counts, box "
-	        "as for cells_of_voxels, the label of each voxel, and the first of the labels that share their voxels; rivals, start: as for fit_labels; least: "
+	        "Raise levels of scores until each label has at least so many of its voxels; return the levels, and whether this is reached. voxels: counts, "
+	        "box "
+	        "as for cells_of_voxels, the label of each voxel, and the first of the labels that share their voxels; rivals, start: as for fit_labels; "
+	        "least: "
 	        "voxels of each label; most: raises for each label in the mean.");
 }
 
