@@ -17,6 +17,7 @@ from ..files import Table, json_text, write_text
 from ..report import tables
 from ..require import POSITIVE, Bounds
 from ..specimens.checks import SHORT_EDGE
+from ..specimens.grain_source import traced
 from ..specimens.space.spec import SHORT_EDGE as SOLID_SHORT_EDGE
 from ..specimens.spec import GRAINS_FILE
 from ..text import words_of
@@ -104,6 +105,7 @@ def image(
         made = Specimen.from_labels(
             read.labels, pixel, thickness, minerals=kinds, edge=edge, smallest=smallest
         )
+    made = traced(made, file.name, pixel_size=[pixel])
     _describe(replace(made, mineral_names=tuple(names)), folder)
 
 

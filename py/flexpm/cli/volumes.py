@@ -88,6 +88,16 @@ _unit = click.option(
     "each grain.",
 )
 @click.option(
+    "--minerals-dtype",
+    metavar="T",
+    help="Type of the numbers of a second volume that is a .raw file.  [default: as --dtype]",
+)
+@click.option(
+    "--minerals-array",
+    metavar="NAME",
+    help="Array of phases in a second volume with several arrays.",
+)
+@click.option(
     "--least-voxels",
     type=Count(1),
     default=8,
@@ -137,6 +147,10 @@ def volume(file: Path, out: Path, quiet: bool, **options: Any) -> None:
     labels, phases, minerals = (options.pop(name) for name in ("labels", "phases", "minerals"))
     names = ("voxel", "unit", "counts", "dtype", "array", "crop", "coarsen")
     reading: Table = {name: options.pop(name) for name in names}
+    second = {name: options.pop(f"minerals_{name}") for name in ("dtype", "array")}
+    for name, value in second.items():
+        if value is not None and minerals is None:
+            raise InputError(f"minerals-{name} = {value}, is for a second volume; give --minerals")
     if options["watershed"] and labels == "grains":
         raise InputError("watershed, is for labels of phases; give --labels phases")
     if minerals is not None and labels == "phases":
@@ -151,7 +165,9 @@ def volume(file: Path, out: Path, quiet: bool, **options: Any) -> None:
         chosen = made_of.VolumeOptions(**options)
         read = files.read(file, **reading)
         if minerals is not None:
-            kinds = volume_minerals.kinds_of_minerals(minerals, read, reading, phases)
+            kinds = volume_minerals.kinds_of_minerals(
+                minerals, read, reading, phases, **second
+            )
         elif phases is not None:
             kinds = volume_minerals.kinds_of_file(phases, read, labels)
         else:

@@ -126,6 +126,9 @@ def result_rows(result: Result) -> list[tuple[str, str]]:
         rows.insert(5, ("residual strength", scaled(result.residual_strength, 1e-6, "MPa")))
     if confined := pressures_text(result, "#.4g"):
         rows.insert(1, ("confining pressure", confined))
+    specimen = (result.inputs or {}).get("specimen") or {}
+    if source := specimen.get("source"):
+        rows.insert(1, ("source of the grains", source_text(source)))
     return rows
 
 
@@ -143,6 +146,20 @@ def pressures_text(result: Result, digits: str = "g") -> str:
         return ""
     shown = [f"{1e-6 * one:{digits}}" for one in (first, second) if one is not None]
     return f"{' and '.join(shown)} MPa"
+
+
+def source_text(source: Table) -> str:
+    """Return file and figures of the source of a specimen, see ``specimens.grain_source``, as text."""
+    parts = [source["file"]]
+    if "grains" in source:
+        parts.append(f"{source['grains']} grains")
+    for name in ("voxel", "pixel"):
+        if sizes := source.get(f"{name}_size"):
+            shown = " x ".join(f"{1e3 * size:.4g}" for size in sizes)
+            parts.append(f"{name} {shown} mm")
+    if "agreement" in source:
+        parts.append(f"{100.0 * source['agreement']:.2f} % of the voxels in the cell of their grain")
+    return ", ".join(parts)
 
 
 def test_text(result: Result) -> str:

@@ -251,7 +251,7 @@ def _named(values: Table) -> Table:
 def _changes(spec: RunSpec | AnySpec) -> Table:
     """Return the fields whose value differs from their default."""
     values = {field.name: (getattr(spec, field.name), field.default) for field in fields(spec)}
-    nested = ("specimen", "material", "own")
+    nested = ("specimen", "material", "own", "source")  # a source names where grains come from
     own = spec.own if isinstance(spec, RunSpec) else {}
     if not isinstance(spec, RunSpec) and is_solid(spec.kind):
         own = {"kind": spec.kind}  # also the default one: no key of the plane's

@@ -16,6 +16,7 @@ from . import plane
 from .checks import SHORT_EDGE
 from .kernel_input import Circle
 from .plane import Corners, Packing, packing_of
+from .grain_source import traced
 from .spec import SpecimenSpec
 
 
@@ -250,7 +251,7 @@ class PlaneShapes(ABC):
         """
         options = {"misorientation": misorientation, "unindexed": unindexed, "phases": phases}
         options |= {"edge": edge, "smallest": smallest}
-        return cls._of(plane.from_ebsd(Path(path), thickness, options))
+        return traced(cls._of(plane.from_ebsd(Path(path), thickness, options)), Path(path).name)
 
     @classmethod
     def from_tess(
@@ -278,7 +279,8 @@ class PlaneShapes(ABC):
             InputError: for a file that has no 2D cells or is broken, with its line, and as
                 ``from_polygons``.
         """
-        return cls._of(plane.from_tess(Path(path), thickness, scale, short_edge))
+        made = cls._of(plane.from_tess(Path(path), thickness, scale, short_edge))
+        return traced(made, Path(path).name)
 
     @classmethod
     def from_discs(

@@ -24,6 +24,7 @@ from .checks import (
     require_seed,
     require_short_edge,
 )
+from .grain_source import require_source
 
 if TYPE_CHECKING:
     from ..arrays import FloatArray
@@ -70,6 +71,7 @@ class SpecimenSpec:
         networks: Fracture networks whose traces are among the joints, as tables that generate them
             again; None without networks.
         joint_origin: Point of a map of joints at the specimen's origin [m]; None without a map.
+        source: File from which the grains were read, see ``grain_source``; None: none.
     """
 
     kind: str = "rectangle"
@@ -90,6 +92,7 @@ class SpecimenSpec:
     strengths: str | None = None
     networks: tuple[Table, ...] | None = None
     joint_origin: tuple[float, float] | None = None
+    source: Table | None = None
 
     def __post_init__(self) -> None:
         if self.kind not in SIZES:
@@ -102,6 +105,7 @@ class SpecimenSpec:
             self._set(name, self._size(where, name))
         self._set("thickness", require_length(where, "thickness", self.thickness))
         self._set("short_edge", require_short_edge(self.short_edge))
+        self._set("source", require_source(where, self.source))
         if self.joint_names is not None:  # a list in a file
             self._set("joint_names", tuple(self.joint_names))
         if self.networks is not None:

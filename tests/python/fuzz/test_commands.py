@@ -36,7 +36,7 @@ FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothin
 NAMED = """--model --material --mesh --start --loading --wave --sides --control --film --specimen
     --joints --minerals --name --network --phases --shape
     --models --unindexed --size --rock
-    --array --dtype --labels --unit --volumes --new""".split()
+    --array --dtype --minerals-array --minerals-dtype --labels --unit --volumes --new""".split()
 #: Options that are given below, or that lead to other files, long work or other machines.
 NOT_DRAWN = """--width --height --out --quiet --steps --scaling --large --json --scheduler
     --cluster --version""".split()

@@ -28,6 +28,7 @@ from flexpm.specimens.volumes.regions import Kinds, find
 from flexpm.specimens.volumes.volume_minerals import kinds_of_file
 
 SIDE = 1e-3
+COMMAND = ["specimen", "volume", "--quiet"]
 
 
 @functools.cache
@@ -415,6 +416,51 @@ def test_minerals_come_from_a_second_volume_of_any_format(tmp_path):
     assert solid.mineral_names == ("phase 0", "phase 1")
 
 
+def test_a_second_raw_volume_has_the_shape_of_the_file_of_the_grains(tmp_path):
+    labels = few_cells().labels.astype(np.uint16) + 1
+    np.save(tmp_path / "grains.npy", labels)
+    (labels % 2).astype(np.uint8).tofile(tmp_path / "phases.raw")
+    labels.tofile(tmp_path / "grains.raw")
+    window = ((0, 20), (0, 16), (6, 24))
+    ids = np.unique(labels[6:])
+    raw = {"counts": (20, 16, 24), "dtype": "uint16"}
+    for name, options in (("grains.npy", {}), ("grains.raw", raw)):
+        solid = Specimen.from_label_volume(
+            tmp_path / name,
+            voxel=SIDE,
+            crop=window,
+            minerals=tmp_path / "phases.raw",
+            minerals_dtype="uint8",
+            **options,
+        )
+        of_rows = np.array(solid.fit.columns["label"])[
+            [row for row, grain in enumerate(solid.fit.columns["grain"]) if grain is not None]
+        ]
+        assert solid.minerals.tolist() == (of_rows % 2).tolist() and set(of_rows) <= set(ids)
+    given_raw = {"voxel": SIDE, "minerals": tmp_path / "phases.raw"}
+    make = Specimen.from_label_volume
+    refusal("is a .raw file without minerals_dtype", make, tmp_path / "grains.npy", **given_raw)
+    refusal("size = 7680 bytes, must be 15360", make, tmp_path / "grains.raw", **given_raw, **raw)
+
+
+SECOND = [
+    (["--minerals-dtype", "uint8"], "minerals-dtype = uint8, is for a second volume"),
+    (["--minerals", "phases.npy", "--minerals-dtype", "u1"], "minerals_dtype = 'u1', is for a .raw"),
+    (["--minerals", "table.csv", "--minerals-array", "a"], "minerals_array = 'a', is for a second"),
+    (["--minerals", "phases.npy", "--minerals-array", "a"], "array = 'a', is for .dream3d"),
+]
+
+
+@pytest.mark.parametrize(("options", "words"), SECOND)
+def test_options_of_a_second_volume_are_for_one(tmp_path, capsys, monkeypatch, options, words):
+    monkeypatch.chdir(tmp_path)
+    np.save("scan.npy", few_cells().labels.astype(np.uint8))
+    np.save("phases.npy", few_cells().labels.astype(np.uint8) % 2)
+    (tmp_path / "table.csv").write_text("id,mineral\n")
+    assert cli.main([*COMMAND, "scan.npy", "--voxel", "1e-3", *options]) == 2
+    assert words in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("name", FORMATS)
 def test_all_formats_make_the_same_specimen(tmp_path, name):
     if name.endswith(".dream3d"):
@@ -424,11 +470,15 @@ def test_all_formats_make_the_same_specimen(tmp_path, name):
     expected = Specimen.from_label_volume(labels, voxel=SIDE)
     expected.save(tmp_path / "expected.json")
     Specimen.from_label_volume(path, voxel=SIDE, **options).save(tmp_path / "found.json")
-    one, other = (tmp_path / f"{name}.json" for name in ("expected", "found"))
-    assert one.read_bytes() == other.read_bytes()
-
-
-COMMAND = ["specimen", "volume", "--quiet"]
+    one, other = (
+        json.loads((tmp_path / f"{name}.json").read_text()) for name in ("expected", "found")
+    )
+    # the file is named
+    assert [content["spec"]["source"].pop("file") for content in (one, other)] == [
+        "array",
+        path.name,
+    ]
+    assert one.pop("checksum") != other.pop("checksum") and one == other
 
 
 def test_command_writes_grains_report_and_pictures(tmp_path, capsys, monkeypatch):
@@ -458,7 +508,8 @@ def test_threads_change_no_bit(tmp_path):
     settings = {**os.environ, **dict.fromkeys(names, "4"), "PYTHONPATH": paths}
     command = [sys.executable, "-c", script]
     subprocess.run(command, check=True, env=settings, timeout=600, cwd=tmp_path)
-    made(with_pore()).save(tmp_path / "here.json")
+    here = Specimen.from_label_volume(tmp_path / "scan.npy", voxel=SIDE)
+    here.save(tmp_path / "here.json")
     assert (tmp_path / "here.json").read_bytes() == (tmp_path / "four.json").read_bytes()
 
 

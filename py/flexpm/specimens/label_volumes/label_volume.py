@@ -45,6 +45,8 @@ class LabelVolume:
         phase_names: Names of phases from the file, by index.
         has_voids: Whether some voxels have label 0, which stands for no rock.
         source: Name of the file without its folder.
+        file_counts: Number of voxels along x, y, z in the file, before it was cropped; None: no
+            file.
     """
 
     labels: Labels
@@ -55,6 +57,7 @@ class LabelVolume:
     phase_names: Mapping[int, str] = field(default_factory=dict)
     has_voids: bool = False
     source: str = ""
+    file_counts: Counts | None = None
 
     @classmethod
     def of(

@@ -98,6 +98,7 @@ def read(
         phases=_phases(path, made, content, window),
         phase_names=content.phase_names,
         has_voids=content.has_voids and bool((made.ids == 0).any()),
+        file_counts=file.counts,
     )
 
 

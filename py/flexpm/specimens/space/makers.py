@@ -14,6 +14,7 @@ from ...files import Table
 from ...progress import Progress
 from ...require import quoted
 from ..plane import Packing, packing_of
+from ..grain_source import traced
 from .spec import SHORT_EDGE, SolidSpec
 from .specimen import SolidSpecimen
 
@@ -165,7 +166,7 @@ class SolidShapes:
         """
         from .tess import specimen_of
 
-        return specimen_of(Path(path), scale, short_edge)
+        return traced(specimen_of(Path(path), scale, short_edge), Path(path).name)
 
     @staticmethod
     def from_label_volume(
@@ -206,7 +207,8 @@ class SolidShapes:
                 none.
             progress: Receives the stages of the fit.
             reading: ``unit``, ``counts``, ``dtype``, ``array``, ``crop`` and ``coarsen`` of
-                ``reading.read``, for files.
+                ``reading.read``, for files. ``minerals_dtype`` and ``minerals_array`` are
+                ``dtype`` and ``array`` of a second volume.
 
         Returns:
             The specimen, grains in the order of their labels. ``fit`` compares it with the volume.
@@ -225,9 +227,10 @@ class SolidShapes:
         from ..volumes.volume_minerals import kinds_of, kinds_of_minerals
 
         options = VolumeOptions(least_voxels, watershed, shape, diameter, volumes, short_edge)
+        second = {name: reading.pop(f"minerals_{name}", None) for name in ("dtype", "array")}
         volume = volume_of(source, voxel, reading)
         if isinstance(minerals, Path | str):
-            kinds = kinds_of_minerals(Path(minerals), volume, reading)
+            kinds = kinds_of_minerals(Path(minerals), volume, reading, **second)
         else:
             kinds = kinds_of(volume, minerals)
         return specimen_of(volume, kinds, options, progress)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...errors import InputError
+from ...files import Table
 from ..checks import (
     DIAMETERS,
     require_diameters,
@@ -20,6 +21,7 @@ from ..checks import (
     require_seed,
     require_short_edge,
 )
+from ..grain_source import require_source
 
 #: Sizes of each shape and their defaults [m].
 SIZES: dict[str, dict[str, float]] = {
@@ -52,6 +54,7 @@ class SolidSpec:
         spheres: Checksum of given spheres; None for a packing.
         minerals: Checksum of given minerals of the grains; None without given minerals.
         cells: Checksum of given cells; None: cells of the spheres.
+        source: File from which the grains were read, see ``grain_source``; None: none.
     """
 
     kind: str = "box"
@@ -66,6 +69,7 @@ class SolidSpec:
     spheres: str | None = None
     minerals: str | None = None
     cells: str | None = None
+    source: Table | None = None
 
     # what specimens of the plane may have, and solids do not
     joints: ClassVar[None] = None
@@ -84,6 +88,7 @@ class SolidSpec:
         for name in _ALL_SIZES:
             self._set(name, self._size(where, name))
         self._set("short_edge", require_short_edge(self.short_edge))
+        self._set("source", require_source(where, self.source))
         if self.spheres is None:
             room = min(self.sizes.values())
             self._set("diameters", require_diameters(where, self.diameters, room))

@@ -23,6 +23,7 @@ from ..label_volumes.reading import read
 from ..space.frame import SolidFrame
 from ..space.own_cells import OwnCells
 from ..space.spec import SHORT_EDGE
+from ..grain_source import traced
 from ..space.specimen import SolidSpecimen
 from . import regions
 from .fit import Grid, Trial, edges_of, fit
@@ -108,7 +109,9 @@ def specimen_of(
     inside = _voxels_inside(grid, frame, corner)
     size = made.outline().volume
     report = report.of_specimen(made.cells.volumes, size, kept_grains, found, inside, loose)
-    return replace(made, mineral_names=kinds.names, fit=report)
+    made = replace(made, mineral_names=kinds.names, fit=report)
+    figures = {"voxel_size": [*volume.spacing], "agreement": fitted.best.agreement}
+    return traced(made, volume.source, grains=found.grains, **figures)
 
 
 def _cut(

@@ -116,7 +116,13 @@ def kinds_of_file(path: Path, volume: LabelVolume, labels: str) -> Kinds:
 
 
 def kinds_of_minerals(
-    path: Path, volume: LabelVolume, reading: Table, phases: Path | None = None
+    path: Path,
+    volume: LabelVolume,
+    reading: Table,
+    phases: Path | None = None,
+    *,
+    dtype: str | None = None,
+    array: str | None = None,
 ) -> Kinds:
     """Read the mineral of each grain of a volume.
 
@@ -127,6 +133,9 @@ def kinds_of_minerals(
         reading: Arguments of ``reading.read`` with which the volume was read.
         phases: File of the phases of the second volume, see `kinds_of_file`; None: minerals are
             called ``phase 1`` and so on.
+        dtype: Type of the numbers of a second volume that is a ``.raw`` file; None: that of the
+            first one. Such a file has as many voxels as the file of the grains.
+        array: Name of the array of phases in a second volume with several arrays.
 
     Raises:
         InputError: for a file that cannot be read, a volume of another size, or a grain without a
@@ -140,12 +149,17 @@ def kinds_of_minerals(
                 f"phases = {quoted(str(phases))}, must not be given with a table of minerals: the "
                 "table has their names; leave one out"
             )
+        for name, value in (("dtype", dtype), ("array", array)):
+            if value is not None:
+                raise InputError(
+                    f"minerals_{name} = {quoted(value)}, is for a second volume, not for a table; "
+                    "leave it out"
+                )
         names, found = mineral_table.read(path, grains)
     else:
-        # the second volume has the voxels of the first one, and options of a .raw file if it is one
+        # the second volume has the voxels of the first one
         options: Table = {name: reading.get(name) for name in ("crop", "coarsen")}
-        if path.suffix.lower() == ".raw":
-            options |= {name: reading.get(name) for name in ("counts", "dtype")}
+        options |= _second(path, volume, reading.get("dtype"), dtype, array)
         step = options["coarsen"] = options["coarsen"] or 1
         voxel = tuple(size / step for size in volume.spacing)
         second = read(path, voxel=voxel, **options)
@@ -165,6 +179,26 @@ def kinds_of_minerals(
         )
     rock = {label: one for label, one in found.items() if one is not None and label not in voids}
     return Kinds(rock, frozenset({*found} - {*rock} | voids), tuple(names))
+
+
+def _second(
+    path: Path, volume: LabelVolume, first: str | None, dtype: str | None, array: str | None
+) -> Table:
+    """Return the options by which a second volume is read, for its format."""
+    if path.suffix.lower() == ".raw":
+        if dtype is None and first is None:
+            raise InputError(
+                f"minerals = {quoted(str(path))}, is a .raw file without minerals_dtype; give it, "
+                "such as uint8"
+            )
+        options: Table = {"counts": volume.file_counts or volume.counts, "dtype": dtype or first}
+        return options | {"array": array}
+    if dtype is not None:
+        raise InputError(
+            f"minerals_dtype = {quoted(dtype)}, is for a .raw file; leave it out for "
+            f"{quoted(str(path))}"
+        )
+    return {"array": array}
 
 
 def _names(path: Path) -> dict[int, str]:
