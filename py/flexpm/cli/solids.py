@@ -140,7 +140,7 @@ def describe(made: SolidSpecimen, folder: Path, source: Table | None = None) -> 
     shape = SolidShape(*made.tetrahedra(), cells.vertices, corners, ends, pairs)
     write_text(folder / "specimen.json", json_text(found | (source or {})))
     made.save(folder / "solid.json")
-    write_solid_vtu(folder / "specimen.vtu", shape)
+    write_solid_vtu(folder / "specimen.vtu", shape, made.minerals, made.mineral_names)
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     picture = folder / "specimen.png"
     shown = outer if made.minerals is None else made.minerals[outer]

@@ -17,6 +17,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from refusals import refusal
 from volume_files import FORMATS, write
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import flexpm
 from flexpm import Specimen
@@ -173,6 +175,23 @@ def test_a_pore_softens_the_rock_within_bounds():
     assert 1.0 - 3.5 * share < found / rock < 1.0 - 1.5 * share
 
 
+def test_a_channel_along_the_side_leaves_poissons_ratio():
+    """Between smooth platens a prism of any section has the stress, and the widening, of a box."""
+    z, y, x = np.indices((24, 24, 24)) // 4
+    labels = (z * 6 + y) * 6 + x + 1
+    channel = (x < 2) & (y >= 2) & (y < 4)
+    whole = made(labels)
+    cut = made(np.where(channel, 0, labels), minerals={0: None})
+    share = cut.fit.totals["pore_fraction"]
+    assert share == pytest.approx(1.0 / 9.0, abs=0.002)
+    elastic = {"young": 20e9, "poisson": 0.2, "normal_stiffness": 2e15, "shear_ratio": 1.0}
+    rock = Material.from_dict({**ROCK, "elastic": {"flexible": elastic}}, "one")
+    one, other = flexpm.elastic(whole, rock), flexpm.elastic(cut, rock)
+    assert other["poissons_ratio"] == pytest.approx(one["poissons_ratio"], rel=0.01)
+    stiffness = (1.0 - share) * one["youngs_modulus"]
+    assert other["youngs_modulus"] == pytest.approx(stiffness, rel=2e-3)
+
+
 def test_islands_and_small_grains_join_a_neighbour():
     labels = np.ones((8, 8, 8), int)
     labels[4:] = 2
@@ -325,6 +344,19 @@ def test_layers_across_the_load_have_the_mean_compliance_where_they_widen_alike(
     """With Poisson's ratios like the moduli, all layers widen by the same under one stress."""
     found = flexpm.elastic(layers("z"), two_minerals((20e9, 60e9), (0.1, 0.3), 2e17))
     assert found["youngs_modulus"] == pytest.approx(30e9, rel=1e-3)
+
+
+def test_layers_across_the_load_of_equal_poissons_ratios_are_a_laminate():
+    """Layers of one lateral strain: 1/E = <1/E_i> - 2 nu^2 / (1 - nu) (<1/E_i> - 1 / <E_i>).
+
+    The mean lateral stress is 0, that of a layer is not. At the free sides it vanishes, which makes
+    the specimen 0.25 % softer for layers of a sixth of the width, and 0.09 % for half of this.
+    """
+    poisson, mean, compliance = 0.2, 40e9, 0.5 * (1 / 20e9 + 1 / 60e9)
+    laminate = compliance - 2 * poisson**2 / (1 - poisson) * (compliance - 1 / mean)
+    found = flexpm.elastic(layers("z"), two_minerals((20e9, 60e9), (poisson,) * 2, 2e17))
+    assert found["youngs_modulus"] == pytest.approx(1.0 / laminate, rel=5e-3)
+    assert found["poissons_ratio"] == pytest.approx(poisson / mean / laminate, rel=0.04)
 
 
 def test_a_mixture_is_within_the_bounds_of_hashin_and_shtrikman():
@@ -495,6 +527,27 @@ def test_command_writes_grains_report_and_pictures(tmp_path, capsys, monkeypatch
     lines = (tmp_path / "made" / "volume.csv").read_text().splitlines()
     assert len(lines) == content["grains"] + 1 and lines[0].startswith("grain,label,x,y,z,voxels,")
     assert "volume.png" in capsys.readouterr().out
+
+
+def test_the_mesh_for_paraview_has_the_minerals(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    np.save("scan.npy", few_cells().labels.astype(np.uint8) + 1)
+    rows = [f"{label},{('quartz', 'feldspar', 'mica')[label % 3]}" for label in range(1, 41)]
+    (tmp_path / "table.csv").write_text("\n".join(["id,mineral", *rows, ""]))
+    assert cli.main([*COMMAND, "scan.npy", "--voxel", "1e-3", "--minerals", "table.csv"]) == 0
+    (out,) = tmp_path.glob("*/specimen.vtu")
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(out))
+    reader.Update()
+    grid = reader.GetOutput()
+    kind, grain, mineral = (
+        vtk_to_numpy(grid.GetCellData().GetArray(name)) for name in ("kind", "grain", "mineral")
+    )
+    solid = Specimen.load_solid(out.with_name("solid.json"))
+    assert mineral[kind == 0].tolist() == solid.minerals[grain[kind == 0]].tolist()
+    assert set(mineral[kind == 1]) == {-1} and set(mineral[kind == 0]) == {0, 1, 2}
+    names = grid.GetFieldData().GetAbstractArray("minerals").GetValue(0)
+    assert names == ", ".join(solid.mineral_names)
 
 
 def test_threads_change_no_bit(tmp_path):

@@ -6,7 +6,7 @@ Stress, traction and opening are positive in tension.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -48,18 +48,34 @@ class SolidShape:
     pairs: IntArray
 
 
-def write_solid_vtu(path: Path | str, shape: SolidShape) -> None:
+def write_solid_vtu(
+    path: Path | str,
+    shape: SolidShape,
+    minerals: IntArray | None = None,
+    names: Sequence[str] = (),
+) -> None:
     """Write a 3D specimen as one VTK unstructured grid, completely or not at all.
 
     Cell arrays: ``kind``, 0 for a tetrahedron and 1 for a contact; ``grain``, the grain of a
     tetrahedron or the first grain of a contact; ``neighbour``, the second grain of a contact, -1
-    for a tetrahedron.
+    for a tetrahedron; with minerals ``mineral`` of a tetrahedron, -1 for a contact.
 
     Args:
         path: Name of the file, ending in .vtu.
         shape: The solid.
+        minerals: Index of each grain's mineral; None without minerals.
+        names: Names of the minerals, which are field data ``minerals``.
     """
-    write_in_turn(path, _grid_of(shape, iter(()), iter(())), {})
+
+    def of_grains() -> Iterator[vtkDataArray]:
+        if minerals is None:
+            return
+        found = _blank(len(shape.grains) + len(shape.pairs), minerals)
+        found[: len(shape.grains)] = minerals[shape.grains]
+        yield made("mineral", (found, ()))
+
+    about = {"minerals": ", ".join(names)} if names else {}
+    write_in_turn(path, _grid_of(shape, iter(()), of_grains()), about)
 
 
 def write_solid_state(
