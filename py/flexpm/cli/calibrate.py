@@ -77,6 +77,12 @@ def calibrate(
 ) -> None:
     """Find the material that meets the targets of FILE; write it as a preset, with a figure."""
     if rock is not None:
+        for name, value in options.items():
+            if value is not None:
+                raise InputError(
+                    f"--{name} = {value}, must not be given with --new, which runs no test; leave "
+                    "it out"
+                )
         _write_calibration(file, rock, model, shape, out)
         return
     for name, given in (("model", model), ("shape", shape)):

@@ -165,9 +165,7 @@ def volume(file: Path, out: Path, quiet: bool, **options: Any) -> None:
         chosen = made_of.VolumeOptions(**options)
         read = files.read(file, **reading)
         if minerals is not None:
-            kinds = volume_minerals.kinds_of_minerals(
-                minerals, read, reading, phases, **second
-            )
+            kinds = volume_minerals.kinds_of_minerals(minerals, read, reading, phases, **second)
         elif phases is not None:
             kinds = volume_minerals.kinds_of_file(phases, read, labels)
         else:

@@ -149,7 +149,7 @@ def pressures_text(result: Result, digits: str = "g") -> str:
 
 
 def source_text(source: Table) -> str:
-    """Return file and figures of the source of a specimen, see ``specimens.grain_source``, as text."""
+    """Return the source of the grains, see ``specimens.grain_source``, as text."""
     parts = [source["file"]]
     if "grains" in source:
         parts.append(f"{source['grains']} grains")
@@ -158,7 +158,9 @@ def source_text(source: Table) -> str:
             shown = " x ".join(f"{1e3 * size:.4g}" for size in sizes)
             parts.append(f"{name} {shown} mm")
     if "agreement" in source:
-        parts.append(f"{100.0 * source['agreement']:.2f} % of the voxels in the cell of their grain")
+        parts.append(
+            f"{100.0 * source['agreement']:.2f} % of the voxels in the cell of their grain"
+        )
     return ", ".join(parts)
 
 

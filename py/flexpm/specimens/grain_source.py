@@ -6,16 +6,21 @@ No heavy library is imported here, so that inputs are checked before YADE starts
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Mapping
-from typing import Any, TypeVar
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, TypeVar
 
 from ..errors import InputError
 from ..files import Table
 from ..require import quoted
 from .files.rules import Rule, is_count, is_positive, is_text, list_of
 
-Made = TypeVar("Made")
+if TYPE_CHECKING:
+    from .plane import Filling
+    from .space.specimen import SolidSpecimen
+    from .specimen import Specimen
+
+Made = TypeVar("Made", "Filling", "SolidSpecimen", "Specimen")
 
 #: Entries of a source: name of the file, number of grains found in it, size of a voxel along x, y,
 #: z [m], sides of a pixel [m], ratio of the voxels that are in the cell of their grain [-].
@@ -36,16 +41,17 @@ def require_source(where: str, source: object) -> Table | None:
     """
     if source is None:
         return None
-    valid = isinstance(source, Mapping) and {"file"} <= source.keys() <= _RULES.keys()
-    if not valid or not all(_RULES[key](one) for key, one in source.items()):
+    found = dict(source) if isinstance(source, Mapping) else {}
+    known = {"file"} <= found.keys() <= _RULES.keys()
+    if not known or not all(_RULES[key](one) for key, one in found.items()):
         raise InputError(
             f"{where}: source = {quoted(source)}, must be a table of {', '.join(_RULES)}; save the "
             "specimen again"
         )
-    return dict(source)
+    return found
 
 
-def traced(made: Made, file: str, **figures: Any) -> Made:
+def traced(made: Made, file: str, **figures: float | Sequence[float]) -> Made:
     """Return a specimen, or a filling of one, whose spec has a source.
 
     Args:
@@ -53,7 +59,4 @@ def traced(made: Made, file: str, **figures: Any) -> Made:
         file: Name of the file without its folder.
         figures: Other entries of the source.
     """
-    given: Any = made
-    source = {"file": file, **figures}
-    found: Made = dataclasses.replace(given, spec=dataclasses.replace(given.spec, source=source))
-    return found
+    return replace(made, spec=replace(made.spec, source={"file": file, **figures}))

@@ -14,9 +14,9 @@ from ..arrays import FloatArray
 from ..progress import Progress
 from . import plane
 from .checks import SHORT_EDGE
+from .grain_source import traced
 from .kernel_input import Circle
 from .plane import Corners, Packing, packing_of
-from .grain_source import traced
 from .spec import SpecimenSpec
 
 
@@ -251,7 +251,8 @@ class PlaneShapes(ABC):
         """
         options = {"misorientation": misorientation, "unindexed": unindexed, "phases": phases}
         options |= {"edge": edge, "smallest": smallest}
-        return traced(cls._of(plane.from_ebsd(Path(path), thickness, options)), Path(path).name)
+        made = plane.from_ebsd(Path(path), thickness, options)
+        return cls._of(traced(made, Path(path).name))
 
     @classmethod
     def from_tess(
@@ -279,8 +280,8 @@ class PlaneShapes(ABC):
             InputError: for a file that has no 2D cells or is broken, with its line, and as
                 ``from_polygons``.
         """
-        made = cls._of(plane.from_tess(Path(path), thickness, scale, short_edge))
-        return traced(made, Path(path).name)
+        made = plane.from_tess(Path(path), thickness, scale, short_edge)
+        return cls._of(traced(made, Path(path).name))
 
     @classmethod
     def from_discs(

@@ -477,7 +477,10 @@ def test_a_second_raw_volume_has_the_shape_of_the_file_of_the_grains(tmp_path):
 
 SECOND = [
     (["--minerals-dtype", "uint8"], "minerals-dtype = uint8, is for a second volume"),
-    (["--minerals", "phases.npy", "--minerals-dtype", "u1"], "minerals_dtype = 'u1', is for a .raw"),
+    (
+        ["--minerals", "phases.npy", "--minerals-dtype", "u1"],
+        "minerals_dtype = 'u1', is for a .raw",
+    ),
     (["--minerals", "table.csv", "--minerals-array", "a"], "minerals_array = 'a', is for a second"),
     (["--minerals", "phases.npy", "--minerals-array", "a"], "array = 'a', is for .dream3d"),
 ]

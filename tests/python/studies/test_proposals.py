@@ -403,6 +403,7 @@ def test_the_command_tells_targets_start_and_runs(tmp_path, capsys, monkeypatch)
         "custom: strengths times 0.6, moduli times 0.6, energies times 0.6",
         "by exponents  cohesion times",
         "elastic solves",
+        "without a key of their own  ",
         "mine-start.toml",
     ):
         assert text in said
@@ -423,6 +424,19 @@ def test_the_command_tells_targets_start_and_runs(tmp_path, capsys, monkeypatch)
     assert "without exponents  crack_damage, fracture_toughness, cohesion_wide, peak_" in said
 
 
+def test_the_page_shows_what_the_command_says_of_the_sandstone(tmp_path, capsys, monkeypatch):
+    root = Path(__file__).parents[3]
+    (tmp_path / "sandstone.toml").write_bytes(
+        (root / "scripts/tutorials/sandstone.toml").read_bytes()
+    )
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(["calibrate", "--new", "sandstone.toml", "--out", "my-rock.toml"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert len(said) == 8
+    page = (root / "doc/start_with_your_rock.rst").read_text()
+    assert "\n".join(f"    {line}" for line in said) in page
+
+
 @pytest.mark.parametrize(
     ("words", "says"),
     [
@@ -432,6 +446,7 @@ def test_the_command_tells_targets_start_and_runs(tmp_path, capsys, monkeypatch)
         (["--new", "augg", "--out", "new.toml"], "did you mean augig?"),
         (["--new", "augig", "--out", "new.toml", "file.toml"], "must not be given with --new"),
         (["--new", "augig", "--model", "inner", "--out", "new.toml"], "inner"),
+        (["--new", "augig", "--out", "new.toml", "--workers", "2"], "--workers = 2, must not be"),
         (["there.toml", "--shape", "box"], "must be given with --new only"),
         ([], "Missing argument 'FILE'"),
     ],

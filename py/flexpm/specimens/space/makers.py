@@ -13,8 +13,8 @@ from ...dimensions import refused
 from ...files import Table
 from ...progress import Progress
 from ...require import quoted
-from ..plane import Packing, packing_of
 from ..grain_source import traced
+from ..plane import Packing, packing_of
 from .spec import SHORT_EDGE, SolidSpec
 from .specimen import SolidSpecimen
 

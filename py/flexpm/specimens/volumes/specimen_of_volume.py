@@ -17,13 +17,13 @@ from ...files import Table
 from ...progress import Progress
 from ...require import POSITIVE, Bounds, quoted, require_number, require_one_of, require_whole
 from ..checks import require_short_edge
+from ..grain_source import traced
 from ..kernel_input import call
 from ..label_volumes.label_volume import Labels, LabelVolume
 from ..label_volumes.reading import read
 from ..space.frame import SolidFrame
 from ..space.own_cells import OwnCells
 from ..space.spec import SHORT_EDGE
-from ..grain_source import traced
 from ..space.specimen import SolidSpecimen
 from . import regions
 from .fit import Grid, Trial, edges_of, fit
@@ -110,8 +110,14 @@ def specimen_of(
     size = made.outline().volume
     report = report.of_specimen(made.cells.volumes, size, kept_grains, found, inside, loose)
     made = replace(made, mineral_names=kinds.names, fit=report)
-    figures = {"voxel_size": [*volume.spacing], "agreement": fitted.best.agreement}
-    return traced(made, volume.source, grains=found.grains, **figures)
+    agreement = fitted.best.agreement
+    return traced(
+        made,
+        volume.source,
+        grains=found.grains,
+        voxel_size=[*volume.spacing],
+        agreement=agreement,
+    )
 
 
 def _cut(

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -92,6 +92,7 @@ class Proposal:
         cost: Most runs.
         modulus_known: Whether the rock file has Young's modulus.
         files: The file of the calibration, and that of the start.
+        keyless: Targets that free no key: keys of other targets move them.
     """
 
     plan: Calibration
@@ -100,6 +101,7 @@ class Proposal:
     cost: Cost
     modulus_known: bool
     files: tuple[Path, Path]
+    keyless: tuple[str, ...]
 
 
 def write(
@@ -133,8 +135,8 @@ def write(
             "measures that the material should meet"
         )
     source = beginning.origin(dimension_of(solid=is_solid(shape)), model)
-    elastic, searched = _free(aims, model, source.exponents)
-    searched = [key for key in searched if key in beginning.similar(source.material, model, 1, 1)]
+    known_keys = beginning.similar(source.material, model, 1, 1)
+    elastic, searched, keyless = _free(aims, model, source.exponents, known_keys)
     start = beginning.start(source, model, found, aims.found, searched)
     bounds = {key: _bounds(key, start.values[key]) for key in (*elastic, *searched)}
     start.values.update(
@@ -152,17 +154,20 @@ def write(
         raise InputError(f"rock {quoted(found.name)}: {error}") from None
     young = found.entries.get("youngs_modulus")
     known = young is not None and young.value is not None
-    return Proposal(plan, aims, start, cost(plan, start.values), known, (file, first))
+    return Proposal(plan, aims, start, cost(plan, start.values), known, (file, first), keyless)
 
 
-def _free(aims: Aims, model: str, known: Exponents | None) -> tuple[list[str], list[str]]:
-    """Return the elastic keys that the elastic targets determine, and the keys of the search.
+def _free(
+    aims: Aims, model: str, known: Exponents | None, keys: Container[str]
+) -> tuple[list[str], list[str], tuple[str, ...]]:
+    """Return the keys of the elastic targets, those of the search, and targets that free no key.
 
     Args:
         aims: The targets.
         model: Name of the model.
         known: Exponents about the start, which has stiff grains, so that contacts determine the
             modulus; None: a usual material.
+        keys: Keys of the material.
     """
     names = [without_pressure(one.target.name) for one in aims.found]
     of_contacts = known is not None or model == "rigid"
@@ -175,15 +180,22 @@ def _free(aims: Aims, model: str, known: Exponents | None) -> tuple[list[str], l
     )
     elastic = [key for name, key in fitted.items() if name in names]
     searched: list[str] = []
+    keyless: list[str] = []
     for one, name in zip(aims.found, names, strict=True):
-        free = next((key for key in _freed(name, one.measure, known) if key not in searched), None)
-        searched += [] if free is None else [free]
-    moved = any(name in names for name in _OF_COMPLIANCE)
-    targets_left = len(names) - len(elastic) > len(searched)
+        if name in fitted:
+            continue
+        able = (key for key in _freed(name, one.measure, known) if key in keys)
+        free = next((key for key in able if key not in searched), None)
+        if free is None:
+            keyless.append(one.target.name)
+        else:
+            searched.append(free)
+    moved = [name for name in _OF_COMPLIANCE if name in names]
     # the modulus stays while its share of the contacts moves
-    if moved and elastic and targets_left and model == "flexible":
+    if moved and elastic and keyless and model == "flexible":
         searched.append("young" if of_contacts else "normal_stiffness")
-    return elastic, searched
+        keyless = [name for name in keyless if name != moved[0]]
+    return elastic, searched, tuple(keyless)
 
 
 def _freed(name: str, measure: str, known: Exponents | None) -> Sequence[str]:
@@ -331,6 +343,8 @@ def lines(made: Proposal) -> Iterator[str]:
     if made.aims.left_out:
         yield f"  decide, but are no targets  {', '.join(made.aims.left_out)}"
     yield f"  free     {', '.join(plan.free)}"
+    if made.keyless:
+        yield f"  without a key of their own  {', '.join(made.keyless)}"
     k, e = start.factors
     similar = f"strengths times {k:.3g}, moduli times {e:.3g}, energies times {k * k / e:.3g}"
     yield f"  start    {source.material.name}: {similar}"

@@ -218,43 +218,52 @@ def _initiation(name: str, words: str, about: str) -> Measure:
     )
 
 
+def _peak(name: str, words: str, run: str, about: str, *, needs_size: bool = False) -> Measure:
+    """A strength: the peak of one run."""
+    of = partial(_number, run, "peak_stress")
+    return Measure(name, words, "Pa", (run,), of, about, _STRESS, needs_size=needs_size)
+
+
 def _under_pressure(percent: int) -> list[Measure]:
     """Measures of the run under a percentage of the compressive strength."""
-    share, run = f"{PRESSURES[percent]:g}", (confined(percent),)
-    past = partial(Measure, runs=run, needs_peak=False, after_peak=True)
+    share, run = f"{PRESSURES[percent]:g}", confined(percent)
+    past_the_peak = (
+        (
+            *("drop", "-", _drop, _SHARE),
+            "part of the largest deviator that is lost within 0.5 % of axial strain after it",
+        ),
+        (
+            *("dilation", "-", _dilation, Bounds(at_least=-1e3, at_most=1e3)),
+            "D = 1 - dV/de over 0.5 % of axial strain after the largest deviator",
+        ),
+        (
+            *("dilation angle", "degrees", _dilation_angle, _ANGLE),
+            "psi with sin psi = (D - 1)/(D + 1)",
+        ),
+    )
     return [
         Measure(
             f"peak_ratio_{percent}",
             f"peak over strength at {share}",
             "-",
-            (*run, COMPRESSED),
+            (run, COMPRESSED),
             partial(_peak_ratio, percent),
             "axial stress at the peak over the compressive strength of the same packing",
             _RATIO,
         ),
-        past(
-            name=f"drop_{percent}",
-            words=f"drop at {share}",
-            unit="-",
-            of=partial(_drop, percent),
-            about="part of the largest deviator that is lost within 0.5 % of axial strain after it",
-            bounds=_SHARE,
-        ),
-        past(
-            name=f"dilation_{percent}",
-            words=f"dilation at {share}",
-            unit="-",
-            of=partial(_dilation, percent),
-            about="D = 1 - dV/de over 0.5 % of axial strain after the largest deviator",
-            bounds=Bounds(at_least=-1e3, at_most=1e3),
-        ),
-        past(
-            name=f"dilation_angle_{percent}",
-            words=f"dilation angle at {share}",
-            unit="degrees",
-            of=partial(_dilation_angle, percent),
-            about="psi with sin psi = (D - 1)/(D + 1)",
-            bounds=_ANGLE,
+        *(
+            Measure(
+                f"{words.replace(' ', '_')}_{percent}",
+                f"{words} at {share}",
+                unit,
+                (run,),
+                partial(of, percent),
+                about,
+                bounds,
+                needs_peak=False,
+                after_peak=True,
+            )
+            for words, unit, of, bounds, about in past_the_peak
         ),
     ]
 
@@ -293,11 +302,11 @@ _ALL = (
         "direct solve",
         Bounds(above=-1.0, at_most=1.0),
     ),
-    Measure(
-        *("compressive_strength", "compressive strength", "Pa", (COMPRESSED,)),
-        partial(_number, COMPRESSED, "peak_stress"),
+    _peak(
+        "compressive_strength",
+        "compressive strength",
+        COMPRESSED,
         "peak without confining pressure",
-        _STRESS,
     ),
     _initiation("crack_initiation", "crack initiation by cracks", "crack_initiation_stress"),
     _initiation(
@@ -330,17 +339,17 @@ _ALL = (
         _SHARE,
         after_peak=True,
     ),
-    Measure(
-        *("direct_tensile_strength", "direct tensile strength", "Pa", (PULLED,)),
-        partial(_number, PULLED, "peak_stress"),
+    _peak(
+        "direct_tensile_strength",
+        "direct tensile strength",
+        PULLED,
         "peak in direct tension",
-        _STRESS,
     ),
-    Measure(
-        *("indirect_tensile_strength", "indirect tensile strength", "Pa", (SPLIT,)),
-        partial(_number, SPLIT, "peak_stress"),
+    _peak(
+        "indirect_tensile_strength",
+        "indirect tensile strength",
+        SPLIT,
         "peak of the disc; in 3D between jaws of 1.5 times its radius",
-        _STRESS,
         needs_size=True,
     ),
     Measure(
