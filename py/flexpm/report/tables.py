@@ -150,7 +150,7 @@ def pressures_text(result: Result, digits: str = "g") -> str:
 
 def source_text(source: Table) -> str:
     """Return the source of the grains, see ``specimens.grain_source``, as text."""
-    parts = [source["file"]]
+    parts = [name_of(source["file"])]
     if "grains" in source:
         parts.append(f"{source['grains']} grains")
     for name in ("voxel", "pixel"):

@@ -13,6 +13,7 @@ from refusals import refusal
 
 from flexpm import Specimen
 from flexpm.cli import main as cli
+from flexpm.report.tables import source_text
 from flexpm.runs.run_spec import RunSpec
 from flexpm.specimens.space.spec import SolidSpec
 
@@ -57,6 +58,11 @@ def test_images_maps_and_tessellations_name_their_file(tmp_path, monkeypatch):
     (tmp_path / "a.tess").write_text(tess_of(made))
     assert Specimen.from_tess(tmp_path / "a.tess", 0.01).spec.source == {"file": "a.tess"}
     assert Specimen.rectangle(0.012, 0.024, 0.01).spec.source is None
+
+
+def test_names_of_files_are_text_of_one_line():
+    named = source_text({"file": "a\n\x1b[2Jb.tif", "voxel_size": [1e-3, 2e-3, 1.5e-6]})
+    assert named == "a ?[2Jb.tif, voxel 1 x 2 x 0.0015 mm"
 
 
 @pytest.mark.parametrize(

@@ -147,11 +147,9 @@ void register_label_bindings()
 	py::def("raise_levels",
 	        raiseLevels,
 	        (py::arg("voxels"), py::arg("rivals"), py::arg("start"), py::arg("least"), py::arg("most")),
-	        "Raise levels of scores until each label has at least so many of its voxels; return the levels, and whether this is reached. voxels: counts, "
-	        "box "
-	        "as for cells_of_voxels, the label of each voxel, and the first of the labels that share their voxels; rivals, start: as for fit_labels; "
-	        "least: "
-	        "voxels of each label; most: raises for each label in the mean.");
+	        "Raise levels of scores until each label has at least so many of its voxels; return the levels, and whether this is reached. "
+	        "voxels: counts, box as for cells_of_voxels, the label of each voxel, and the first of the labels that share their voxels; "
+	        "rivals, start: as for fit_labels; least: voxels of each label; most: raises for each label in the mean.");
 }
 
 } // namespace flexpm_bindings
