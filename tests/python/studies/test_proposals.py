@@ -403,7 +403,7 @@ def test_the_command_tells_targets_start_and_runs(tmp_path, capsys, monkeypatch)
         "custom: strengths times 0.6, moduli times 0.6, energies times 0.6",
         "by exponents  cohesion times",
         "elastic solves",
-        "without a key of their own  ",
+        "targets that free no key  ",
         "mine-start.toml",
     ):
         assert text in said

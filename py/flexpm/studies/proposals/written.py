@@ -344,7 +344,7 @@ def lines(made: Proposal) -> Iterator[str]:
         yield f"  decide, but are no targets  {', '.join(made.aims.left_out)}"
     yield f"  free     {', '.join(plan.free)}"
     if made.keyless:
-        yield f"  without a key of their own  {', '.join(made.keyless)}"
+        yield f"  targets that free no key  {', '.join(made.keyless)}"
     k, e = start.factors
     similar = f"strengths times {k:.3g}, moduli times {e:.3g}, energies times {k * k / e:.3g}"
     yield f"  start    {source.material.name}: {similar}"
