@@ -27,8 +27,8 @@ template <class... Lists> std::size_t bytes_of(const Lists&... lists)
 
 std::size_t bytes_of_plan(const SolidPlan& p)
 {
-    // a further member changes the size: count it below, too
-    static_assert(sizeof(SolidPlan) == 21 * sizeof(std::vector<int>) + 8);
+    // a further member changes the size: count it below, too; intact specimens have no pairs
+    static_assert(sizeof(SolidPlan) == 21 * sizeof(std::vector<int>) + 8 + sizeof(PairPlan));
     return bytes_of(p.tile_contacts, p.first_tile, p.tile_moves, p.moves, p.first_parcel,
         p.block_sums, p.sums, p.parcels, p.shown_forces, p.node_loads, p.body_places, p.motions,
         p.wrenches, p.faces, p.face_places, p.face_grains, p.first_press, p.presses,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Overlap of convex bodies in both dimensions against closed forms, differences of its
+/// @file  BodyOverlap of convex bodies in both dimensions against closed forms, differences of its
 /// energy, and its balances.
 #include "support/catch.hpp"
 #include "support/convex_bodies.hpp"
@@ -161,7 +161,7 @@ TEMPLATE_TEST_CASE(
     for (const double depth : { 0.1, 1e-2, 1e-3 }) {
         Body<TestType> above = lowered(below, depth);
         PairOverlap<TestType> pair;
-        const Overlap flush = overlap_of(pair, below, above);
+        const BodyOverlap flush = overlap_of(pair, below, above);
         const double ratio = space ? 1.0 - depth + depth * depth / 3.0 : 1.0 - 0.5 * depth;
         const Vector force = force_on(pair, below, 1);
         CHECK(force.y / depth == Approx(ratio).epsilon(1e-11));
@@ -240,7 +240,7 @@ TEMPLATE_TEST_CASE("walls and equal planes count once", "[overlap]", InPlane, In
         Body<TestType> one = turned_body(a, turn), two = turned_body(b, turn);
         one.centre = turned(turn, { 0.0, 0.5 * layer, 0.0 });
         two.centre = turned(turn, { 0.0, 2.0 * layer - 0.5, 0.0 });
-        const Overlap found = overlap_of(pair, one, two);
+        const BodyOverlap found = overlap_of(pair, one, two);
         CHECK(found.energy == Approx(layer * layer).epsilon(1e-11));
         CHECK(found.depth == Approx(layer).epsilon(1e-11));
         // the floor is pushed by all of the layer, the wall by the pressure on it
@@ -277,7 +277,7 @@ TEMPLATE_TEST_CASE("slanted walls take the closed form", "[overlap]", InPlane, I
         above.counted.assign(above.faces.size(), false);
         above.counted[2] = above.counted[3] = true;
         PairOverlap<TestType> pair;
-        const Overlap found = overlap_of(pair, box<TestType>({ 2.0, 0.5, 2.0 }), above);
+        const BodyOverlap found = overlap_of(pair, box<TestType>({ 2.0, 0.5, 2.0 }), above);
         CHECK(found.energy == Approx(0.5 * depth * depth * (width + lean * depth)).epsilon(1e-11));
         CHECK(found.area == Approx(width + std::min(2.0 * lean * depth, 0.0)).epsilon(1e-11));
         CHECK(found.depth == Approx(0.5 * depth).epsilon(1e-11));
@@ -328,7 +328,7 @@ TEMPLATE_TEST_CASE("the overlap scales with the size of the bodies", "[overlap]"
     PairOverlap<TestType> pair;
     for (int k = 0; k < 20; ++k) {
         const RandomPair<TestType> sampled(pair, random, between(random, 0.001, 0.08));
-        const Overlap once = overlap_of(pair, sampled.a, sampled.b);
+        const BodyOverlap once = overlap_of(pair, sampled.a, sampled.b);
         const std::vector<FaceForce> forces = pair.forces();
         for (const double scale : { 1e-4, 1e3 }) {
             Body<TestType> a = sampled.a, b = sampled.b;
@@ -337,7 +337,7 @@ TEMPLATE_TEST_CASE("the overlap scales with the size of the bodies", "[overlap]"
                 for (Vector& node : body->nodes)
                     node = scale * node;
             }
-            const Overlap scaled = overlap_of(pair, a, b);
+            const BodyOverlap scaled = overlap_of(pair, a, b);
             CHECK(scaled.energy
                 == Approx(once.energy * std::pow(scale, TestType::dimension + 1)).epsilon(1e-9));
             CHECK(scaled.depth == Approx(once.depth * scale).epsilon(1e-9));
@@ -369,7 +369,7 @@ TEMPLATE_TEST_CASE(
             for (Vector& node : body->nodes)
                 node = node + 1e-3 * depth * direction<TestType>(random);
 
-        const Overlap found = overlap_of(pair, a, b, clearance, false);
+        const BodyOverlap found = overlap_of(pair, a, b, clearance, false);
         const auto forces = nodal_forces(pair, a, b);
         const int first = static_cast<int>(a.faces.size());
         Vector sum, moment, nodal_sum, nodal_moment;
@@ -516,7 +516,7 @@ TEMPLATE_TEST_CASE("pairs are born without energy and force", "[overlap]", InPla
         const double depth = pair.measure(of_a.view, of_b.view, 0.0).depth;
         if (!(depth > 0.0)) continue;
         ++born;
-        const Overlap at_birth = pair.measure(of_a.view, of_b.view, depth + 1e-12);
+        const BodyOverlap at_birth = pair.measure(of_a.view, of_b.view, depth + 1e-12);
         forces += !pair.forces().empty();
         unborn += at_birth.energy == 0.0 && at_birth.depth == 0.0 && at_birth.area == 0.0;
         // and with more clearance
@@ -543,7 +543,7 @@ TEMPLATE_TEST_CASE("small overlaps keep their digits", "[overlap]", InPlane, InS
         const double depth = overlap_of(pair, sampled.a, sampled.b).depth;
         for (const double part : { 1e-2, 1e-4 }) {
             const double rest = part * depth;
-            const Overlap found = overlap_of(pair, sampled.a, sampled.b, depth - rest);
+            const BodyOverlap found = overlap_of(pair, sampled.a, sampled.b, depth - rest);
             CHECK(found.depth == Approx(rest).epsilon(1e-14 / rest));
             Vector sum, moment;
             double size = 0.0;
@@ -617,9 +617,9 @@ TEST_CASE("a slab of one cell has the overlap of the plane", "[overlap]")
         if (k % 2 == 1)
             for (std::size_t f = 0; f < sampled.a.faces.size(); ++f)
                 sampled.a.counted[f] = random.next() < 0.6;
-        const Overlap plane = overlap_of(in_plane, sampled.a, sampled.b);
+        const BodyOverlap plane = overlap_of(in_plane, sampled.a, sampled.b);
         const Body<InSpace> a = prism_of(sampled.a, thickness), b = prism_of(sampled.b, thickness);
-        const Overlap slab = overlap_of(in_space, a, b);
+        const BodyOverlap slab = overlap_of(in_space, a, b);
         CHECK(slab.energy == Approx(thickness * plane.energy).epsilon(1e-9));
         CHECK(slab.depth == Approx(plane.depth).epsilon(1e-9));
         CHECK(slab.area == Approx(thickness * plane.area).epsilon(1e-9));
@@ -648,12 +648,12 @@ TEMPLATE_TEST_CASE("a remembered plane changes no bit", "[overlap]", InPlane, In
         const Vector apart = sampled.b.centre - sampled.a.centre;
         if (k % 2 == 1) sampled.b.centre = sampled.b.centre + 0.1 * apart;
         const Planes<TestType> one(sampled.a), two(sampled.b);
-        const Overlap first = pair.measure(one.view, two.view, 0.0);
+        const BodyOverlap first = pair.measure(one.view, two.view, 0.0);
         const std::vector<FaceForce> forces = pair.forces();
         const int all = one.view.faces + two.view.faces;
         int separating = static_cast<int>(all * random.next());
         for (int again = 0; again < 2; ++again) {
-            const Overlap second = pair.measure(one.view, two.view, 0.0, &separating);
+            const BodyOverlap second = pair.measure(one.view, two.view, 0.0, &separating);
             CHECK((separating >= 0 && separating < all));
             CHECK(second.energy == first.energy);
             CHECK(second.depth == first.depth);

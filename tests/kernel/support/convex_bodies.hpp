@@ -71,7 +71,7 @@ template <class Geometry> struct Planes {
 };
 
 template <class Geometry>
-Overlap overlap_of(PairOverlap<Geometry>& pair, const Body<Geometry>& a, const Body<Geometry>& b,
+BodyOverlap overlap_of(PairOverlap<Geometry>& pair, const Body<Geometry>& a, const Body<Geometry>& b,
     double clearance = 0.0, bool flat = true)
 {
     const Planes<Geometry> of_a(a, flat), of_b(b, flat);

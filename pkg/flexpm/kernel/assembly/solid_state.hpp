@@ -9,6 +9,8 @@
 
 #include <flexpm/kernel/assembly/bonded_state.hpp>
 #include <flexpm/kernel/assembly/contacts.hpp>
+#include <flexpm/kernel/assembly/pair_contacts.hpp>
+#include <flexpm/kernel/assembly/pair_plan.hpp>
 #include <flexpm/kernel/core/quaternion.hpp>
 #include <flexpm/kernel/core/space_vector.hpp>
 #include <flexpm/kernel/law/face_point.hpp>
@@ -123,7 +125,12 @@ struct FaceContacts {
     Array<int> nodes;               ///< [block][corner][side][lane]: offset of the node
     Array<int> line;                ///< [block][lane]: corner at the end of the line
     Array<double> places;           ///< [block][corner][component][lane] when bonded [m]
-    Array<double> areas;            ///< [block][point][lane] [m^2], 0 where padded
+    Array<double> areas;  ///< that act, [block][point][lane] [m^2]; 0 where padded or ended
+    /// Areas when bonded, laid out as `areas`; empty as long as no contact has ended.
+    Array<double> bonded_areas;
+    /// 1: the faces lie on each other no more, and a pair has taken over; empty as long as there is
+    /// none.
+    std::vector<std::uint8_t> ended;
     Array<double> shares;  ///< [block][point that is no corner][corner][lane], with sum 1 [-]
     /// [block][point][FaceRow][lane]; empty of a block whose points have never left their elastic
     /// branch: what they bear follows from the places of their nodes alone.
@@ -155,7 +162,12 @@ struct FaceContacts {
     {
         return block_points[block_of(contact)] + point * lanes + lane_of(contact);
     }
-    double area(int contact, int point) const { return areas[point_index(contact, point)]; }
+    /// When bonded [m^2].
+    double area(int contact, int point) const
+    {
+        return (bonded_areas.empty() ? areas : bonded_areas)[point_index(contact, point)];
+    }
+    bool has_ended(int contact) const { return !ended.empty() && ended[contact] != 0; }
 
     /// Share of a corner in a point.
     double share(int contact, int point, int corner) const
@@ -224,6 +236,8 @@ struct FaceContacts {
         visit("line", s.line);
         visit("places", s.places);
         visit("areas", s.areas);
+        visit("bonded_areas", s.bonded_areas);
+        visit("ended", s.ended);
         visit("shares", s.shares);
         visit("states", s.states);
         visit("cracks", s.cracks);
@@ -393,6 +407,8 @@ struct SolidPlan {
     std::vector<int> pressed;            ///< number of the triangle
     std::vector<double> pressure_works;  ///< of each triangle since the last forces [J]
 
+    PairPlan pairs;
+
     int tiles() const { return static_cast<int>(tile_contacts.size()) - 1; }
 
     /// Rows of a block of contacts in `faces`.
@@ -414,6 +430,7 @@ struct SolidState : BondedState {
     Tetrahedra tetrahedra;          ///< of rigid grains for their masses alone
     std::vector<RigidBody> bodies;  ///< of each grain; empty: all deform
     FaceContacts contacts;
+    std::vector<PairContact> pairs;  ///< of near grains without a common face, ascending
     SurfaceTriangles surface;
     std::vector<HeldFace> held_faces;
     SolidPlan plan;  ///< derived, never saved
@@ -434,6 +451,7 @@ struct SolidState : BondedState {
         visit("tetrahedra", s.tetrahedra);
         visit("bodies", s.bodies);
         visit("contacts", s.contacts);
+        visit("near_pairs", s.pairs);
         visit("surface", s.surface);
         visit("held_faces", s.held_faces);
     }

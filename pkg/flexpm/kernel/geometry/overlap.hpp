@@ -51,7 +51,7 @@ struct FaceForce {
 };
 
 /// Measures of the overlap of a pair.
-struct Overlap {
+struct BodyOverlap {
     double energy = 0.0;  ///< over K_n [m^4; m^3 in 2D]
     double depth = 0.0;   ///< largest depth d below the planes, less the clearance [m]
     double area = 0.0;    ///< of counted faces in the other body: the smaller sum of both [m^2; m]
@@ -95,16 +95,16 @@ struct InPlane {
     static void spread(const Vector* corners, int count, const FaceForce& on, Vector* forces);
 };
 
-/// Overlap of pairs of bodies, one pair at a time. The object owns the memory that a pair needs and
+/// BodyOverlap of pairs of bodies, one pair at a time. The object owns the memory that a pair needs and
 /// allocates only while this memory grows. Each thread has its own object.
 template <class Geometry> class PairOverlap {
 public:
-    /// Overlap of two bodies, and the forces on their faces.
+    /// BodyOverlap of two bodies, and the forces on their faces.
     /// @param clearance   counted planes are moved inwards by it; may be negative [m]
     /// @param separating  index of the plane that separated both bodies last (faces of the second
     ///                    body follow those of the first), or -1. It is tested first, is updated,
     ///                    and has no influence on the result
-    Overlap measure(
+    BodyOverlap measure(
         const ContactBody& a, const ContactBody& b, double clearance, int* separating = nullptr);
 
     /// Forces of the last pair on its touched faces, by face.
@@ -156,10 +156,10 @@ private:
     bool is_in_prism(Vector at) const;
     bool find_active();
     void drop_hidden();
-    void add_ridge(std::size_t i, std::size_t j, Overlap& sum);
-    void add_wall(std::size_t w, std::size_t i, Overlap& sum);
-    void finish(const ContactBody& a, const ContactBody& b, Overlap& sum);
-    void add_cone(std::size_t i, const Active& q, double factor, Vector centre, Overlap& sum);
+    void add_ridge(std::size_t i, std::size_t j, BodyOverlap& sum);
+    void add_wall(std::size_t w, std::size_t i, BodyOverlap& sum);
+    void finish(const ContactBody& a, const ContactBody& b, BodyOverlap& sum);
+    void add_cone(std::size_t i, const Active& q, double factor, Vector centre, BodyOverlap& sum);
     std::array<double, 2> range(Vector normal) const;
     double lowest_over(int plane, int which) const;
     void extend(int which, int plane, std::array<double, 6>& bounds);

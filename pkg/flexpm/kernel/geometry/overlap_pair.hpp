@@ -364,7 +364,7 @@ template <class Geometry> void PairOverlap<Geometry>::drop_hidden()
 /// @param factor  of the depth of the apex below q: the height of the cone
 template <class Geometry>
 void PairOverlap<Geometry>::add_cone(
-    std::size_t i, const Active& q, double factor, Vector centre, Overlap& sum)
+    std::size_t i, const Active& q, double factor, Vector centre, BodyOverlap& sum)
 {
     constexpr double share = Geometry::dimension / (Geometry::dimension + 1.0);
     const Active& p = active[i];
@@ -385,7 +385,7 @@ void PairOverlap<Geometry>::add_cone(
 
 /// Add the ridge on which two counted planes are equally near, to both.
 template <class Geometry>
-void PairOverlap<Geometry>::add_ridge(std::size_t i, std::size_t j, Overlap& sum)
+void PairOverlap<Geometry>::add_ridge(std::size_t i, std::size_t j, BodyOverlap& sum)
 {
     const Active &p = active[i], &q = active[j];
     const Vector apart = p.normal - q.normal, both = p.normal + q.normal;
@@ -428,7 +428,7 @@ void PairOverlap<Geometry>::add_ridge(std::size_t i, std::size_t j, Overlap& sum
 
 /// Add the part of a wall to which counted plane i is nearest, to the wall and to the plane.
 template <class Geometry>
-void PairOverlap<Geometry>::add_wall(std::size_t w, std::size_t i, Overlap& sum)
+void PairOverlap<Geometry>::add_wall(std::size_t w, std::size_t i, BodyOverlap& sum)
 {
     const Active &wall = active[w], &p = active[i];
     const auto [first, second] = Geometry::tangents(wall.normal);
@@ -471,7 +471,7 @@ void PairOverlap<Geometry>::add_wall(std::size_t w, std::size_t i, Overlap& sum)
 
 /// Forces on faces, and the pressed area.
 template <class Geometry>
-void PairOverlap<Geometry>::finish(const ContactBody& a, const ContactBody& b, Overlap& sum)
+void PairOverlap<Geometry>::finish(const ContactBody& a, const ContactBody& b, BodyOverlap& sum)
 {
     std::array<double, 2> area {};
     for (std::size_t i = 0; i < active.size(); ++i) {
@@ -491,10 +491,10 @@ void PairOverlap<Geometry>::finish(const ContactBody& a, const ContactBody& b, O
 }
 
 template <class Geometry>
-Overlap PairOverlap<Geometry>::measure(
+BodyOverlap PairOverlap<Geometry>::measure(
     const ContactBody& a, const ContactBody& b, double clearance, int* separating)
 {
-    Overlap sum;
+    BodyOverlap sum;
     on_faces.clear();
     if (separating && is_separating(a, b, clearance, *separating)) return sum;
     const Vector half = 0.5 * (b.centre - a.centre);
@@ -524,7 +524,7 @@ double PairOverlap<Geometry>::birth_clearance(const ContactBody& a, const Contac
 {
     double clearance = 0.0, margin = overlap_detail::birth_margin;
     // a sharp body may keep more than the margin for round-off
-    for (Overlap found = measure(a, b, 0.0); found.energy != 0.0 || !on_faces.empty();
+    for (BodyOverlap found = measure(a, b, 0.0); found.energy != 0.0 || !on_faces.empty();
          found = measure(a, b, clearance)) {
         clearance += found.depth + margin * box.size;
         margin *= 4.0;
@@ -538,7 +538,7 @@ double PairOverlap<Geometry>::clearance_for(
 {
     check_not_negative("clearance_for: energy of a pair over K_n", energy, "m^4");
     if (energy == 0.0) return birth_clearance(a, b);
-    Overlap found = measure(a, b, 0.0);
+    BodyOverlap found = measure(a, b, 0.0);
     const double size = norm(b.centre - a.centre);
     double low = 0.0, high = found.depth;
     double step = std::max(found.depth, overlap_detail::round_off * size);

@@ -45,13 +45,24 @@ double first_of_pairs(const Array<double>& pairs)
     return sum;
 }
 
+/// Sum of value(pair) over the pairs of grains without a common face, which are in 3D.
+template <class State, class Value> double sum_of_pairs(const State& s, Value value)
+{
+    double sum = 0.0;
+    if constexpr (!is_plane<State>)
+        for (const PairContact& pair : s.pairs)
+            sum += value(pair);
+    return sum;
+}
+
 /// Stored in grains and contacts [J].
 template <class State> double stored_energy(const State& s)
 {
     if constexpr (is_plane<State>)
         return strain_energy(s.grains) + contact_energy(s.contacts);
     else
-        return strain_energy(s) + contact_energy(s);
+        return strain_energy(s) + contact_energy(s)
+            + sum_of_pairs(s, [](const PairContact& p) { return p.elastic_energy; });
 }
 
 /// Spin of a rigid grain beyond the one that damping leaves alone; 0 of one whose spin is given.
@@ -216,7 +227,8 @@ template <class State> Dissipation dissipation(const State& s)
     const ContactLoss contact = contact_loss(s.contacts);
     Dissipation d;
     d.damage = contact.damage + s.ledger.removed_damage;
-    d.friction = contact.friction + s.ledger.removed_friction;
+    d.friction = contact.friction + s.ledger.removed_friction
+        + sum_of_pairs(s, [](const PairContact& p) { return p.friction_energy; });
     d.boundary_work = first_of_pairs(s.ledger.prescribed_work) + s.ledger.pressure_work;
     for (const Plate& p : s.plates) {
         d.friction += p.friction_energy;
@@ -303,7 +315,11 @@ template <class State> double unbalanced_ratio(const State& s)
         contacts -= static_cast<double>(std::count(erased.begin(), erased.end(), 1));
         sum = sum_of_forces(s.contacts);
     } else {
-        sum = sum_of_forces(s);
+        const auto& ended = s.contacts.ended;
+        contacts -= static_cast<double>(std::count(ended.begin(), ended.end(), 1));
+        contacts += sum_of_pairs(s, [](const PairContact& p) { return p.presses() ? 1.0 : 0.0; });
+        sum = sum_of_forces(s)
+            + sum_of_pairs(s, [](const PairContact& p) { return norm(p.force); });
     }
     return ratio_of_forces(largest_unbalanced(s, grain_of_facets(s)), contacts, sum);
 }

@@ -140,13 +140,16 @@ FLEXPM_INLINE void add_area_vectors(const FaceLanes& b, const FaceMotion& m, dou
     }
 }
 
+/// Areas and lengths below it count as none: what is divided by them stays finite.
+constexpr double no_size = 1e-150;
+
 /// Areas and normals of faces from twice their area vectors: of their frames what intact points need.
 FLEXPM_INLINE void find_normals(const double* twice, FrameRows& to)
 {
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const Vector area = load_vector(twice, l);
-        const double size = 0.5 * norm(area);
+        const double size = std::max(0.5 * norm(area), no_size);
         store_vector((0.5 / size) * area, to.normal, l);
         to.area[l] = size;
     }
@@ -160,7 +163,7 @@ FLEXPM_INLINE void find_tangents(const double* line, FrameRows& to)
         const Vector normal = load_vector(to.normal, l), along = load_vector(line, l);
         const double lean = dot(along, normal);
         const Vector flat = along - lean * normal;
-        const double span = norm(flat);
+        const double span = std::max(norm(flat), no_size);
         const Vector first = (1.0 / span) * flat;
         store_vector(first, to.first, l);
         store_vector(cross(normal, first), to.second, l);
@@ -195,12 +198,18 @@ FLEXPM_INLINE void find_frames(const FaceLanes& b, FaceMotion& m)
     find_tangents(line, m);
 }
 
-/// Lanes whose face has no area or no longest line.
-FLEXPM_INLINE int count_turned(const FrameRows& m)
+/// Lanes whose face has no area or no longest line, but for those of contacts that have ended.
+/// @param areas  of the points
+FLEXPM_INLINE int count_turned(const FrameRows& m, const double* areas, int points)
 {
     int turned = 0;
-    for (int l = 0; l < lanes; ++l)
-        turned += !(m.area[l] > 0.0 && m.span[l] > 0.0);
+    for (int l = 0; l < lanes; ++l) {
+        if (m.area[l] > no_size && m.span[l] > no_size) continue;
+        bool acts = false;
+        for (int p = 0; p < points; ++p)
+            acts = acts || areas[p * lanes + l] != 0.0;
+        turned += acts;
+    }
     return turned;
 }
 

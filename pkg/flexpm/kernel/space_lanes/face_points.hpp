@@ -140,7 +140,7 @@ FLEXPM_INLINE int update_block(
         advance_points<false>(b, m, states, cracks);
     }
     write_forces(b, m, to, std::false_type());
-    return count_turned(m);
+    return count_turned(m, b.areas, b.group.points);
 }
 
 /// Add the forces of all points as long as they are intact. Returns false if one leaves its elastic
@@ -151,7 +151,7 @@ template <class Lanes> FLEXPM_INLINE bool hold_points(const Lanes& b, typename L
     alignas(64) std::int64_t leaves[lanes];
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l)
-        leaves[l] = m.area[l] > 0.0 ? 0 : 1;
+        leaves[l] = m.area[l] > no_size ? 0 : 1;
     IntactRows at;
     for (int p = 0; p < b.group.points; ++p) {
         find_jump(b, m, p, jump);

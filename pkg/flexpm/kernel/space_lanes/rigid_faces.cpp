@@ -137,7 +137,7 @@ FLEXPM_INLINE void find_frames(const RigidFaceLanes& b, RigidFaceMotion& m)
         constexpr double farthest = 1e14;
         const Vector way = load_vector(m.jump, l);
         const bool near = dot(way, way) <= farthest * farthest * m.area[l];
-        m.area[l] = near ? m.area[l] : 0.0;
+        m.area[l] = near ? m.area[l] : no_size;
     }
     find_tangents(present, m);
 }
@@ -195,13 +195,13 @@ FLEXPM_INLINE bool hold_points(const RigidFaceLanes& b, RigidFaceMotion& m)
                 dot(spread.x, spread.x) + dot(spread.y, spread.y) + dot(spread.z, spread.z));
         const double opening = dot(way, normal);
         const double slip = std::sqrt(std::fabs(dot(way, way) - opening * opening)) + more;
-        const bool holds = (m.area[l] > 0.0) & holds_intact(law, opening + more, slip * slip);
+        const bool holds = (m.area[l] > no_size) & holds_intact(law, opening + more, slip * slip);
         leaves[l] = holds ? 0 : 1;
     }
     if (!any_of(leaves)) return true;
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l)
-        leaves[l] = m.area[l] > 0.0 ? 0 : 1;
+        leaves[l] = m.area[l] > no_size ? 0 : 1;
     alignas(64) double jump[vector_rows];
     for (int p = 0; p < b.group.points; ++p) {
         find_jump(b, m, p, jump);

@@ -79,6 +79,7 @@ std::vector<FacePlace> places_of(const SolidState& s, int contact)
 
 FaceTraction traction_of(const FaceContacts& contacts, int contact, int point, FacePlace place)
 {
+    if (contacts.has_ended(contact)) return { 0.0, {}, 1.0, 1.0 };
     return traction_at(contacts.law_of(contact), place, contacts.point_state(contact, point));
 }
 
@@ -99,6 +100,7 @@ double mean_opening(const SolidState& s, int contact)
 std::vector<Vector> point_forces(const SolidState& s, int contact)
 {
     std::vector<Vector> forces(s.contacts.points_of(contact));
+    if (s.contacts.has_ended(contact)) return forces;
     if (!(norm(contact_normal(s, contact)) > 0.0)) return forces;
     const FaceFrame frame = contact_frame(s, contact);
     const std::vector<FacePlace> places = places_of(s, contact);

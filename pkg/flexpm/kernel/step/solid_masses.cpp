@@ -120,6 +120,72 @@ void add_touch(const SolidState& s, const Plate& plate, int index, SolidBound& b
     bound.turn[grain] += r * r * arm * all;
 }
 
+/// Stiffness that pairs add to a grain for a pressed area: to each node that they press, or to the
+/// centre of a rigid grain and to its turn.
+struct PairStiffness {
+    double node = 0.0;  ///< [N/m]
+    double turn = 0.0;  ///< [N m]
+};
+
+PairStiffness stiffness_of(const SolidState& s, int number, int side, double area)
+{
+    const PairContact& pair = s.pairs[number];
+    const LawParameters& law = s.contacts.laws[pair.law];
+    const double all = area * std::max(law.normal_stiffness, law.shear_stiffness);
+    const int grain = pair.grains[side];
+    if (!s.grains.is_rigid(grain)) {
+        const auto nodes = s.plan.pairs.pairs[number].loads[side].nodes.size();
+        return { 2.0 * all / static_cast<double>(std::max<std::size_t>(nodes, 1)), 0.0 };
+    }
+    const double r = s.grains.radius[grain];
+    const double arm = norm(pair.place - s.grains.position(s.grains.centre(grain))) / r;
+    return { (2.0 + arm) * all, r * r * arm * (2.0 + arm) * all };
+}
+
+/// Nodes of a pair on a side; the centre of a rigid grain.
+std::vector<int> pair_nodes(const SolidState& s, int number, int side)
+{
+    const int grain = s.pairs[number].grains[side];
+    if (s.grains.is_rigid(grain)) return { s.grains.centre(grain) };
+    return s.plan.pairs.pairs[number].loads[side].nodes;
+}
+
+/// Pairs by the areas that masses have been raised for.
+void add_pairs(const SolidState& s, SolidBound& bound)
+{
+    for (std::size_t i = 0; i < s.plan.pairs.pairs.size(); ++i) {
+        for (int side = 0; side < 2; ++side) {
+            const auto number = static_cast<int>(i);
+            const PairStiffness k = stiffness_of(s, number, side, s.pairs[i].mass_area);
+            for (int node : pair_nodes(s, number, side))
+                bound.node[s.grains.scalar_index(node)] += k.node;
+            if (s.is_rigid()) bound.turn[s.pairs[i].grains[side]] += k.turn;
+        }
+    }
+}
+
+/// Add to the mass of a node; the kinetic energy that this adds counts as initial energy.
+void add_mass(SolidState& s, int node, double more)
+{
+    double& inverse = s.grains.inverse_mass[s.grains.scalar_index(node)];
+    if (inverse == 0.0) return;
+    inverse = 1.0 / (1.0 / inverse + more);
+    for (int i = node; i < node + 3; ++i)
+        if (!s.grains.prescribed[i])
+            s.ledger.initial += 0.5 * more * s.grains.velocity[i] * s.grains.velocity[i];
+}
+
+/// The same of the inertia of a rigid grain about any axis.
+void add_inertia(SolidState& s, int grain, double more)
+{
+    RigidBody& body = s.bodies[grain];
+    body.inertia.xx += more;
+    body.inertia.yy += more;
+    body.inertia.zz += more;
+    if (!body.spin_held) s.ledger.initial += 0.5 * more * dot(body.spin, body.spin);
+    set_spin(s, grain, body.spin, body.spin_held);
+}
+
 /// Stiffness that a plate feels as it moves against rigid grains that move and turn.
 double bound_of(const Plate& plate)
 {
@@ -196,6 +262,7 @@ SolidBound stiffness_bound(const SolidState& s)
     for (const Plate& plate : s.plates)
         for (int i = 0; i < plate_points(plate); ++i)
             add_touch(s, plate, i, bound);
+    add_pairs(s, bound);
     complete_rigid(s, bound);
     return bound;
 }
@@ -213,6 +280,28 @@ void scale_masses(SolidState& s, double damping, double dt)
         const double i = factor * bound.turn[g];
         s.bodies[g].inertia = { i, i, i, 0.0, 0.0, 0.0 };
     }
+}
+
+bool bear_pairs(SolidState& s, double damping, double dt)
+{
+    constexpr double slack = 1.25;
+    const double factor = dt > 0.0 ? mass_factor(damping, dt) : 0.0;
+    bool any = false;
+    for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+        PairContact& pair = s.pairs[i];
+        if (!(pair.area > pair.mass_area)) continue;
+        any = true;
+        const double more = slack * pair.area - pair.mass_area;
+        pair.mass_area += more;
+        for (int side = 0; side < 2 && factor > 0.0; ++side) {
+            const auto number = static_cast<int>(i);
+            const PairStiffness k = stiffness_of(s, number, side, more);
+            for (int node : pair_nodes(s, number, side))
+                add_mass(s, node, factor * k.node);
+            if (s.is_rigid()) add_inertia(s, pair.grains[side], factor * k.turn);
+        }
+    }
+    return any;
 }
 
 SolidMass real_mass(const SolidState& s, int grain)

@@ -20,6 +20,13 @@ SolidBound stiffness_bound(const SolidState& s);
 /// @throws std::invalid_argument  if not 0 <= damping < 1 or dt <= 0
 void scale_masses(SolidState& s, double damping, double dt = 1.0);
 
+/// Let masses rise where pairs of grains without a common face press on more area than before, with
+/// 25 % to spare.
+/// @param damping, dt  as of scale_masses(); dt = 0 leaves the masses alone (real masses), and
+///                     stable_step() falls
+/// @return             whether any pair has grown
+bool bear_pairs(SolidState& s, double damping, double dt);
+
 /// Mass of a grain as a whole, and its inertia about its centre in the axes of the reference.
 struct SolidMass {
     double mass = 0.0;       ///< [kg]

@@ -7,6 +7,8 @@
 #include <flexpm/kernel/core/thread_team.hpp>
 #include <flexpm/kernel/forces/gravity.hpp>
 #include <flexpm/kernel/forces/solid_pressure.hpp>
+#include <flexpm/kernel/pairs/pair_forces.hpp>
+#include <flexpm/kernel/pairs/pair_search.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/parts/soft_plate.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
@@ -104,7 +106,7 @@ FLEXPM_INLINE void add_wrenches(
             row_of_four(wrench + row) += row_of_four(parcels + p->place + row);
 }
 
-/// Complete the forces of contacts, plates, pressures and gravity on a block of grains.
+/// Complete the forces of contacts, pairs, plates, pressures and gravity on a block of grains.
 void sum_outer_forces(SolidState& s, int block)
 {
     SolidPlan& plan = s.plan;
@@ -116,6 +118,7 @@ void sum_outer_forces(SolidState& s, int block)
             rigid ? plan.wrenches.data() + block * WrenchRow::count
                   : s.grains.force.data() + s.grains.block_nodes[block]);
     }
+    add_pair_forces(s, block);
     if (!plan.first_press.empty()) add_plate_forces(s, block);
     if (!plan.first_pressed.empty()) add_pressure_forces(s, block);
     if (s.has_gravity()) add_weight(s, block);
@@ -135,13 +138,26 @@ void update_grains(SolidState& s, int block, const StepOptions& o)
     add_works(s.ledger, block, sums, o.measure);
 }
 
+/// Move the grains that contacts of an earlier thread touch, or all of a thread where pairs have to
+/// know where grains are; then the pairs of the thread.
+void move_first(SolidState& s, TileRange own, ThreadTeam& team, int thread, double dt)
+{
+    if (s.plan.pairs.empty()) return move_shared_grains(s, own, dt);
+    for (int tile = own.first; tile < own.end; ++tile)
+        for_each_block(s, tile, [&](int block) { move_block(s, block, dt); });
+    team.meet();
+    follow_bodies(s, thread, team.size());
+    team.meet();
+    update_pairs(s, dt, thread, team.size());
+}
+
 /// Update a thread's contacts and the grains that only these touch. Returns the number of contacts
 /// without a middle face.
 int update_own_tiles(SolidState& s, TileRange own, const StepOptions& o)
 {
     int turned = 0;
     for (int tile = own.first; tile < own.end; ++tile) {
-        move_grains_of(s, tile, own, o.dt);
+        if (s.plan.pairs.empty()) move_grains_of(s, tile, own, o.dt);
         turned += update_contacts_of(s, tile, o.dt);
         for_each_block(s, tile, [&](int block) {
             if (s.plan.first_tile[block] >= own.first) update_grains(s, block, o);
@@ -160,6 +176,12 @@ void update_shared_grains(SolidState& s, TileRange own, const StepOptions& o)
     }
 }
 
+/// A state that was loaded has pairs, but no plan of theirs.
+void require_plan_of_pairs(SolidState& s)
+{
+    if (s.plan.pairs.pairs.size() != s.pairs.size()) prepare_pairs(s);
+}
+
 void check(const StepOptions& o)
 {
     check_positive("time step", o.dt, "s");
@@ -172,6 +194,8 @@ void check(const StepOptions& o)
 void find_forces(SolidState& s)
 {
     if (s.is_rigid()) read_motions(s);
+    require_plan_of_pairs(s);
+    update_pairs(s, 0.0);
     int turned = 0;
     for (int tile = 0; tile < s.plan.tiles(); ++tile)
         turned += update_contacts_of(s, tile, 0.0);
@@ -197,6 +221,7 @@ void step(SolidState& s, const StepOptions& options)
     if (s.plan.tile_contacts.empty()) {
         refuse("tiles of a step", 0.0, "", "must be at least 1; call prepare_step() after loading");
     }
+    require_plan_of_pairs(s);
     ThreadTeam& team = team_of(options.threads);
     std::atomic<int> turned { 0 };
     for (Plate& plate : s.plates)
@@ -204,7 +229,7 @@ void step(SolidState& s, const StepOptions& options)
     give_way(s, options.dt);
     const ThreadTeam::Work share = [&](int thread) {
         const TileRange own = share_of(s.plan, thread, team.size());
-        move_shared_grains(s, own, options.dt);
+        move_first(s, own, team, thread, options.dt);
         team.meet();
         turned += update_own_tiles(s, own, options);
         team.meet();

@@ -3,12 +3,10 @@
 
 #include <flexpm/kernel/assembly/access.hpp>
 #include <flexpm/kernel/assembly/loose_groups.hpp>
-#include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/topology/contact_update.hpp>
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 namespace flexpm {
@@ -19,6 +17,7 @@ namespace {
 bool joins(const SolidState& s, int contact)
 {
     const FaceContacts& c = s.contacts;
+    if (c.has_ended(contact)) return false;
     const auto counts = [&](int p) { return c.area(contact, p) > 0.0; };
     for (int p = 0; p < c.points_of(contact); ++p)
         if (counts(p) && c.crack(contact, p).mode == intact) return true;
@@ -38,6 +37,14 @@ template <class State> bool presses_any(const State& s)
 /// Whether anything moves what has come loose as it should not.
 bool moves_loose(const Assembly& a) { return presses_any(a); }
 bool moves_loose(const SolidState& s) { return presses_any(s) || s.has_gravity(); }
+
+/// Pairs of grains without a common face hang together while they press.
+void join_pairs(const Assembly&, Groups&) { }
+void join_pairs(const SolidState& s, Groups& groups)
+{
+    for (const PairContact& pair : s.pairs)
+        if (pair.presses()) groups.join(pair.grains[0], pair.grains[1]);
+}
 
 template <class State> bool is_held(const State& s, int grain)
 {
@@ -65,21 +72,8 @@ template <class State> void find_loose(State& s)
     for (int c = 0; c < s.contacts.count; ++c) {
         if (joins(s, c)) groups.join(s.contacts.pairs[c][0], s.contacts.pairs[c][1]);
     }
+    join_pairs(s, groups);
     mark_loose(s.grains, groups, held_grains(s));
-}
-
-void require_joined(const SolidState& s)
-{
-    const auto& loose = s.grains.loose;
-    const auto first = std::find(loose.begin(), loose.end(), 1);
-    if (!s.has_gravity() || first == loose.end()) return;
-    const int grain = static_cast<int>(first - loose.begin());
-    fail("step " + std::to_string(s.step) + ": grains detached under gravity",
-        std::to_string(std::count(first, loose.end(), 1)) + ", the first at "
-            + place(s.grains.position(s.grains.centre(grain))),
-        "must be 0 in 3D, where grains without a contact pass through each other; reduce the load, "
-        "or use "
-        "a 2D specimen");
 }
 
 template void find_loose(Assembly& s);

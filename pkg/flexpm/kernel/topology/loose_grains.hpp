@@ -12,16 +12,11 @@
 
 namespace flexpm {
 
-/// Find the grains that no chain of contacts, bonded or touching, joins to what is held: nodes
+/// Find the grains that no chain of contacts, bonded or pressed anew, joins to what is held: nodes
 /// whose velocity is given, and grains that touch a plate which moves at a given velocity. Where
 /// nothing is held, to the largest group of grains. Without any pressure none is loose; in 3D
 /// without gravity either.
 template <class State> void find_loose(State& s);
-
-/// Refuse to go on with grains in 3D that find_loose() has found under gravity: they would fall
-/// through others, since those that meet anew have no contact there (D81).
-/// @throws std::runtime_error  naming the first of them
-void require_joined(const SolidState& s);
 
 extern template void find_loose(Assembly& s);
 extern template void find_loose(SolidState& s);

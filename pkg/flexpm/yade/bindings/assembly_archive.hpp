@@ -57,12 +57,13 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::FaceGroup& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::FaceCrack& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::FaceContacts& part, unsigned) { archiveMembers(archive, part); }
+	template <class Archive> void serialize(Archive& archive, flexpm::PairContact& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::SurfaceTriangles& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::HeldFace& part, unsigned) { archiveMembers(archive, part); }
 	template <class Archive> void serialize(Archive& archive, flexpm::RigidBody& part, unsigned) { archiveMembers(archive, part); }
 
 	/// Version of what SolidState lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned solidVersion = 7;
+	constexpr unsigned solidVersion = 8;
 
 	/// Call flexpm::prepare_step() after loading.
 	template <class Archive> void serialize(Archive& archive, flexpm::SolidState& solid, unsigned version)

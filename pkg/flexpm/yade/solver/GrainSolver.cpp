@@ -78,13 +78,13 @@ void GrainSolver::takeSolidStep()
 {
 	try {
 		if (stepsDone() % checkPeriod == 0) {
+			lookForPairs();
 			flexpm::find_loose(space);
-			flexpm::require_joined(space);
 		}
 		auto options        = stepOptions();
 		options.leave_nodes = true;
 		flexpm::step(space, options);
-	} catch (const std::runtime_error& error) { // of faces that have turned over or loose grains: the record up to here is good
+	} catch (const std::runtime_error& error) { // of faces that have turned over: the record up to here is good
 		diverge(error.what());
 		throw;
 	}

@@ -242,7 +242,7 @@ public:
 			"Fix a side of the outline along the named axes: nodes of deformable grains; of rigid grains the centres across the side, and the edges or the middles of the faces along it. Sides in 3D: 0 bottom, 1 right or lateral surface, 2 top, 3 left, 4 front, 5 back; front and back along y, before a rig controls the ends, give plane strain of a box.")
 		.def("addWall", After<&GrainSolver::requireGrains, &GrainSolver::addWall>::call, (py::arg("position"), py::arg("normal"), py::arg("friction") = 0.),
 			"Place a rigid plate at a distance from the specimen, its normal pointing to the specimen, and return its index. The corners of any grain may touch it; in 3D only the corners on the surface. Scale the masses afterwards.")
-		.add_property("gravity", After<&GrainSolver::requireGrains, &GrainSolver::gravity>::call, After<&GrainSolver::requireGrains, &GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real [m/s^2]; z only in 3D. A 3D run stops if gravity detaches a grain.")
+		.add_property("gravity", After<&GrainSolver::requireGrains, &GrainSolver::gravity>::call, After<&GrainSolver::requireGrains, &GrainSolver::setGravity>::call, "Acceleration of all masses, which must be real [m/s^2]; z only in 3D.")
 		.def("plates", After<&GrainSolver::requireGrains, &GrainSolver::plates>::call, "Return each plate as a dictionary: side, normal, width [m], friction [-], whether it is bonded and pressed, position of its face [m], work done [J], displacement [m], velocity [m/s], force on the specimen [N], contact_width [m].")
 		.def("mirrorBodies", After<&GrainSolver::requireGrains, &GrainSolver::mirrorBodies>::call, "Update YADE's view of the grains now, independently of mirrorPeriod: states, bonds, forces.")
 		.def("resetEnergyBalance", After<&GrainSolver::requireGrains, &GrainSolver::resetEnergyBalance>::call, "Count works and dissipation from now on; the present energy becomes the initial energy. In 3D only before the first step.")
@@ -310,6 +310,7 @@ private:
 	flexpm::Erasure findErased() const;
 	void            listCandidates();
 	void            changeContacts();
+	void            lookForPairs();
 	void            limitStep();
 	void            insertTouches(int firstId);
 	void            followFaces();

@@ -3,7 +3,9 @@
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
+#include <flexpm/kernel/pairs/pair_search.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
+#include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/topology/crack_faces.hpp>
 #include <flexpm/yade/grains/LobattoContact.hpp>
 
@@ -177,11 +179,18 @@ void GrainSolver::showContact(int place)
 	bondsShown = true; // until the end of the step
 }
 
+void GrainSolver::lookForPairs()
+{
+	if (!flexpm::look_for_pairs(space)) return;
+	if (flexpm::bear_pairs(space, massDamping, scaled ? scene->dt : 0.)) limitStep();
+}
+
 void GrainSolver::limitStep()
 {
 	// scaled masses rise with new contacts; real ones do not, so the step falls
 	if (scaled) return;
-	massStep  = std::min(massStep, Real(flexpm::stable_step(assembly, massDamping)));
+	const Real stable = onState([this](const auto& state) { return Real(flexpm::stable_step(state, massDamping)); });
+	massStep          = std::min(massStep, stable);
 	scene->dt = std::min(scene->dt, massStep);
 }
 

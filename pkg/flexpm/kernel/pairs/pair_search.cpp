@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <flexpm/kernel/pairs/pair_search.hpp>
+
+#include <flexpm/kernel/assembly/access.hpp>
+#include <flexpm/kernel/core/groups.hpp>
+#include <flexpm/kernel/geometry/near_boxes.hpp>
+#include <flexpm/kernel/pairs/grain_bodies.hpp>
+#include <flexpm/kernel/pairs/pair_forces.hpp>
+#include <flexpm/kernel/pairs/pair_friction.hpp>
+#include <flexpm/kernel/space/overlap.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
+#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flexpm {
+
+namespace {
+
+/// Way along a face, or apart, at which a contact ends, over the square root of its area, and the
+/// sine of the angle between its faces [-].
+constexpr double parting_way = 0.02, parting_turn = 0.0349;
+
+/// Distance within which grains are near, over the mean diameter [-].
+constexpr double near_distance = 0.05;
+
+bool is_cracked(const FaceContacts& c, int contact)
+{
+    const auto& cracks = c.cracks[c.block_of(contact)];
+    if (cracks.empty()) return false;
+    for (int p = 0; p < c.points_of(contact); ++p)
+        if (c.area(contact, p) > 0.0 && c.crack(contact, p).mode == intact) return false;
+    return true;
+}
+
+/// Normal of one side of a contact, from the first grain to the second.
+Vector side_normal(const SolidState& s, int contact, int side)
+{
+    const FaceContacts& c = s.contacts;
+    std::vector<Vector> corners;
+    for (int k = 0; k < c.corners_of(contact); ++k)
+        corners.push_back(s.grains.position(c.node(contact, side, k)));
+    return normal_of(corners);
+}
+
+std::vector<int> parted_contacts(const SolidState& s)
+{
+    std::vector<int> parted;
+    const FaceContacts& c = s.contacts;
+    for (int contact = 0; contact < c.count; ++contact)
+        if (!c.has_ended(contact) && is_cracked(c, contact) && has_parted(s, contact))
+            parted.push_back(contact);
+    return parted;
+}
+
+/// What the points of a contact store and bear.
+struct FaceLoad {
+    double pressure_energy = 0.0;  ///< [J]
+    double shear_energy = 0.0;     ///< [J]
+    double damage = 0.0;           ///< dissipated [J]
+    double friction = 0.0;         ///< [J]
+    Vector force;                  ///< on the second grain [N]
+};
+
+FaceLoad load_of(const SolidState& s, int contact)
+{
+    const FaceContacts& c = s.contacts;
+    const LawParameters& law = c.law_of(contact);
+    const std::vector<FacePlace> places = places_of(s, contact);
+    FaceLoad load;
+    for (int p = 0; p < c.points_of(contact); ++p) {
+        const FacePointState state = c.point_state(contact, p);
+        const double area = c.area(contact, p), whole = law::elastic_energy(law, places[p], state);
+        const Point slip = places[p].slip - state.plastic_slip;
+        const double shear = 0.5 * law.shear_stiffness * dot(slip, slip);
+        load.pressure_energy += area * (whole - shear);
+        load.shear_energy += area * shear;
+        load.damage += area * state.damage_energy;
+        load.friction += area * state.friction_energy;
+    }
+    load.force = contact_force(s, contact);
+    return load;
+}
+
+/// Take a contact out of the lanes; what it has dissipated goes to the ledger.
+void end_contact(SolidState& s, int contact, const FaceLoad& load)
+{
+    FaceContacts& c = s.contacts;
+    if (c.ended.empty()) {
+        c.ended.assign(c.count, 0);
+        c.bonded_areas = c.areas;
+    }
+    c.ended[contact] = 1;
+    for (int p = 0; p < c.points_of(contact); ++p)
+        c.areas[c.point_index(contact, p)] = 0.0;
+    s.ledger.removed_damage += load.damage;
+    s.ledger.removed_friction += load.friction;
+}
+
+/// Pairs whose faces still lie on each other, ascending.
+std::vector<GrainPair> mates(const SolidState& s)
+{
+    std::vector<GrainPair> pairs;
+    for (int c = 0; c < s.contacts.count; ++c)
+        if (!s.contacts.has_ended(c)) pairs.push_back(s.contacts.pairs[c]);
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+/// Stored in pairs, and dissipated by them [J].
+double energy_of(const std::vector<PairContact>& pairs)
+{
+    double sum = 0.0;
+    for (const PairContact& p : pairs)
+        sum += p.elastic_energy + p.friction_energy;
+    return sum;
+}
+
+double mean_diameter(const Grains& grains)
+{
+    return 2.0 * grain_mean(grains, [&](int g) { return grains.radius[g]; });
+}
+
+/// Box around a grain, and half of the distance within which others are near.
+AxisBox box_around(const SolidState& s, int grain, double margin)
+{
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    AxisBox box { { infinite, infinite, infinite }, { -infinite, -infinite, -infinite } };
+    for (int n = 0; n < s.grains.vertices_of(grain); ++n) {
+        const Vector at = present_position(s, grain, s.grains.node(grain, n));
+        box.low = { std::min(box.low.x, at.x), std::min(box.low.y, at.y),
+            std::min(box.low.z, at.z) };
+        box.high = { std::max(box.high.x, at.x), std::max(box.high.y, at.y),
+            std::max(box.high.z, at.z) };
+    }
+    const Vector more { margin, margin, margin };
+    return { box.low - more, box.high + more };
+}
+
+/// Grains that may meet others: those with a face on the surface, or one whose contact has ended.
+struct FreeGrains {
+    std::vector<std::uint8_t> surface, ended;
+    Groups bodies;  ///< that faces on each other hold together
+
+    explicit FreeGrains(const SolidState& s) :
+        surface(s.grains.count, 0),
+        ended(s.grains.count, 0),
+        bodies(s.grains.count)
+    {
+        for (int grain : s.surface.grain)
+            surface[grain] = 1;
+        for (int c = 0; c < s.contacts.count; ++c) {
+            const auto [a, b] = s.contacts.pairs[c];
+            if (s.contacts.has_ended(c))
+                ended[a] = ended[b] = 1;
+            else
+                bodies.join(a, b);
+        }
+    }
+
+    bool has_free_face(int grain) const { return surface[grain] || ended[grain]; }
+    /// Grains of one body whose contacts all last cannot meet.
+    bool may_meet(int a, int b) { return ended[a] || ended[b] || bodies.of(a) != bodies.of(b); }
+    bool is_one_body()
+    {
+        for (std::size_t g = 1; g < surface.size(); ++g)
+            if (bodies.of(static_cast<int>(g)) != bodies.of(0)) return false;
+        return true;
+    }
+};
+
+/// Pairs of grains without a common face that are near, ascending.
+std::vector<GrainPair> near_pairs(const SolidState& s)
+{
+    FreeGrains free(s);
+    const auto& ended = free.ended;
+    if (std::find(ended.begin(), ended.end(), 1) == ended.end() && free.is_one_body()) return {};
+    std::vector<int> grains;
+    std::vector<AxisBox> boxes;
+    const double margin = 0.5 * near_distance * mean_diameter(s.grains);
+    for (int g = 0; g < s.grains.count; ++g) {
+        if (!free.has_free_face(g)) continue;
+        grains.push_back(g);
+        boxes.push_back(box_around(s, g, margin));
+    }
+    const std::vector<GrainPair> together = mates(s);
+    std::vector<GrainPair> pairs;
+    for (const auto& [i, k] : meeting_boxes(boxes)) {
+        const GrainPair pair { grains[i], grains[k] };
+        if (free.may_meet(pair[0], pair[1])
+            && !std::binary_search(together.begin(), together.end(), pair)) {
+            pairs.push_back(pair);
+        }
+    }
+    return pairs;
+}
+
+/// Keep the pairs that are near, and add those that have come; leave the plan without work.
+void replace_pairs(SolidState& s, const std::vector<GrainPair>& near)
+{
+    std::vector<PairContact> kept;
+    auto old = s.pairs.begin();
+    for (const GrainPair& grains : near) {
+        for (; old != s.pairs.end() && old->grains < grains; ++old)
+            s.ledger.removed_friction += old->friction_energy + old->elastic_energy;
+        if (old != s.pairs.end() && old->grains == grains) {
+            kept.push_back(*old++);
+            continue;
+        }
+        PairContact pair;
+        pair.grains = grains;
+        pair.law = s.grains.law_index(grains[0], grains[1]);
+        pair.clearance = std::numeric_limits<double>::infinity();  // until it is found
+        kept.push_back(pair);
+    }
+    for (; old != s.pairs.end(); ++old)
+        s.ledger.removed_friction += old->friction_energy + old->elastic_energy;
+    s.pairs = std::move(kept);
+}
+
+int body_index(const PairPlan& plan, int grain)
+{
+    const auto found = std::lower_bound(plan.bodies.begin(), plan.bodies.end(), grain,
+        [](const GrainBody& body, int g) { return body.grain < g; });
+    return static_cast<int>(found - plan.bodies.begin());
+}
+
+/// Clearances of pairs that are new, and of those that do not press: not more than they overlap.
+void find_clearances(SolidState& s)
+{
+    SpaceOverlap overlap;
+    for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+        PairContact& pair = s.pairs[i];
+        if (pair.presses() || !(pair.clearance > 0.0)) continue;
+        const PairWork& work = s.plan.pairs.pairs[i];
+        const auto body = [&](int k) { return s.plan.pairs.bodies[work.bodies[k]].view(); };
+        pair.clearance = std::min(pair.clearance, overlap.birth_clearance(body(0), body(1)));
+    }
+}
+
+/// Let the pair of a contact that has ended take over what it stores and bears.
+void take_over(SolidState& s, int contact, const FaceLoad& load)
+{
+    const GrainPair grains = s.contacts.pairs[contact];
+    const auto pair = std::lower_bound(s.pairs.begin(), s.pairs.end(), grains,
+        [](const PairContact& p, const GrainPair& g) { return p.grains < g; });
+    if (pair == s.pairs.end() || pair->grains != grains) return;
+    const LawParameters& law = s.contacts.law_of(contact);
+    pair->law = s.contacts.law[contact];
+    pair->face = contact;
+    const PairWork& work = s.plan.pairs.pairs[pair - s.pairs.begin()];
+    const auto body = [&](int k) { return s.plan.pairs.bodies[work.bodies[k]].view(); };
+    thread_local SpaceOverlap overlap;
+    pair->clearance = overlap.clearance_for(
+        body(0), body(1), std::max(load.pressure_energy, 0.0) / law.normal_stiffness);
+    const BodyOverlap now = overlap.measure(body(0), body(1), pair->clearance);
+    if (!(now.area > 0.0) || !(load.pressure_energy > 0.0)) return;
+    Vector on_b;
+    for (const FaceForce& on : overlap.forces())
+        if (on.face >= body(0).faces) on_b = on_b + on.force;
+    const double size = norm(on_b);
+    if (!(size > 0.0)) return;
+    // the force that the contact has borne along the surface, as far as that adds no energy
+    pair->normal = (1.0 / size) * on_b;
+    pair->area = now.area;
+    pair->normal_force = law.normal_stiffness * size;
+    const Vector along = load.force - dot(load.force, pair->normal) * pair->normal;
+    pair->slip = (-1.0 / (law.shear_stiffness * now.area)) * along;
+    const double stored = spring_energy(*pair, law.shear_stiffness);
+    if (stored > load.shear_energy)
+        pair->slip = std::sqrt(load.shear_energy / stored) * pair->slip;
+}
+
+}  // namespace
+
+bool has_parted(const SolidState& s, int contact)
+{
+    const FaceContacts& c = s.contacts;
+    const double limit = parting_way * std::sqrt(contact_area(c, contact));
+    const std::vector<FacePlace> places = places_of(s, contact);
+    bool presses = false, slides = false, opens = false;
+    for (int p = 0; p < c.points_of(contact); ++p) {
+        if (!(c.area(contact, p) > 0.0)) continue;
+        presses = presses || traction_of(s, contact, p).normal < 0.0;
+        slides = slides || norm(places[p].slip) > limit;
+        opens = opens || places[p].opening > limit;
+    }
+    if (slides || (opens && !presses)) return true;
+    const Vector turn = cross(side_normal(s, contact, 0), side_normal(s, contact, 1));
+    return norm(turn) > parting_turn;
+}
+
+bool look_for_pairs(SolidState& s)
+{
+    show_places(s);
+    const std::vector<int> parted = parted_contacts(s);
+    double stored = 0.0;
+    std::vector<FaceLoad> loads;
+    for (int contact : parted) {
+        loads.push_back(load_of(s, contact));
+        stored += loads.back().pressure_energy + loads.back().shear_energy;
+        end_contact(s, contact, loads.back());
+    }
+    replace_pairs(s, near_pairs(s));
+    prepare_pairs(s);
+    stored += energy_of(s.pairs);
+    for (std::size_t i = 0; i < parted.size(); ++i)
+        take_over(s, parted[i], loads[i]);
+    find_clearances(s);
+    update_pairs(s, 0.0);
+    // faces that can be pressed now are one reason why pairs store less
+    s.ledger.removed_friction += stored - energy_of(s.pairs);
+    return !s.pairs.empty();
+}
+
+void prepare_pairs(SolidState& s)
+{
+    PairPlan& plan = s.plan.pairs;
+    plan.bodies.clear();
+    plan.pairs.clear();
+    plan.first_use.clear();
+    plan.uses.clear();
+    if (s.pairs.empty()) return;
+    if (plan.faces.first.empty()) plan.faces = faces_of(s);
+    std::vector<int> grains;
+    for (const PairContact& pair : s.pairs)
+        grains.insert(grains.end(), pair.grains.begin(), pair.grains.end());
+    std::sort(grains.begin(), grains.end());
+    grains.erase(std::unique(grains.begin(), grains.end()), grains.end());
+    for (int grain : grains)
+        plan.bodies.push_back(body_of(s, plan.faces, grain));
+    std::vector<std::vector<PairUse>> of_block(s.grains.blocks());
+    for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+        PairWork work;
+        for (int k = 0; k < 2; ++k) {
+            const int grain = s.pairs[i].grains[k];
+            work.bodies[k] = body_index(plan, grain);
+            of_block[s.grains.block_of(grain)].push_back({ static_cast<int>(i), k });
+        }
+        plan.pairs.push_back(work);
+    }
+    plan.first_use = { 0 };
+    for (const auto& uses : of_block) {
+        plan.uses.insert(plan.uses.end(), uses.begin(), uses.end());
+        plan.first_use.push_back(static_cast<int>(plan.uses.size()));
+    }
+}
+
+}  // namespace flexpm
