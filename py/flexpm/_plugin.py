@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import importlib.util
 import io
 import os
 import pwd
@@ -62,7 +63,7 @@ def import_yade() -> ModuleType:
     if folder not in sys.path:
         sys.path.append(folder)
     try:
-        with contextlib.redirect_stdout(io.StringIO()), _patient_threads():
+        with contextlib.redirect_stdout(io.StringIO()), _patient_threads(), _number_of_ipython():
             import yade
     except ImportError as error:
         raise ImportError(
@@ -87,6 +88,24 @@ def _patient_threads() -> Iterator[None]:
         yield
     finally:
         del os.environ[_WAITING]  # programs that are started from here have their own
+
+
+@contextlib.contextmanager
+def _number_of_ipython() -> Iterator[None]:
+    """Let YADE see the version of IPython alone, which is all that it asks for.
+
+    Its interactive program uses the rest. To import that takes a third of the time that YADE takes.
+    """
+    name = "IPython"
+    if name in sys.modules or importlib.util.find_spec(name) is None:
+        yield
+        return
+    number = sys.modules[name] = ModuleType(name)
+    vars(number)["__version__"] = metadata.version(name)
+    try:
+        yield
+    finally:
+        del sys.modules[name]  # who imports it later gets all of it
 
 
 def require_debian() -> None:

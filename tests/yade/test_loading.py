@@ -112,6 +112,21 @@ def test_deferred_loading_waits_for_the_first_use(package_parent: Path, tmp_path
     assert done.returncode == 0, done.stderr
 
 
+def test_ipython_is_imported_by_those_alone_who_use_it(
+    package_parent: Path, tmp_path: Path
+) -> None:
+    code = (
+        "import sys, flexpm, yade.runtime\n"
+        "assert not [name for name in sys.modules if name.startswith('IPython')]\n"
+        "import IPython\n"
+        "major, minor = IPython.version_info[:2]\n"
+        "assert yade.runtime.ipython_version == 100 * major + minor\n"
+        "assert callable(IPython.embed)\n"
+    )
+    done = run([PYTHON, "-c", code], package_parent, tmp_path)
+    assert done.returncode == 0, done.stderr
+
+
 def test_public_names_can_be_completed(package_parent: Path, tmp_path: Path) -> None:
     names = (
         "run build elastic compare Specimen Material Model Result InputError SimulationError "
