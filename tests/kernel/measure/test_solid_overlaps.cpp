@@ -66,7 +66,7 @@ TEST_CASE("A cylinder breaks between its ends, and its energies add up", "[solid
     for (const bool rigid : { false, true }) {
         for (const Sense sense : { Sense::tension, Sense::compression }) {
             const bool pulled = sense == Sense::tension;
-            const Broken b = broken(50, rigid, sense, pulled ? 3e-7 : 2e-6);
+            const Broken b = broken(30, rigid, sense, pulled ? 3e-7 : 2e-6);
             const CrackCount cracks = count_cracks(b.state);
             CAPTURE(rigid, pulled, b.peak, b.last, b.imbalance, b.work, cracks.tensile,
                 cracks.shear, b.state.step);

@@ -100,11 +100,11 @@ TEST_CASE(
         // several tiles, whose threads share grains; of seven some have none
         const SolidState start = flying(3 * tile_grains, rigid);
         REQUIRE(start.plan.tiles() == 3);
-        const SolidState one = stepped(start, 1, 100);
+        const SolidState one = stepped(start, 1, 50);
         CHECK(count_cracks(one).tensile > 50);
         CHECK(energies(one).friction > 0.0);
         for (int threads : { 2, 4, 7 })
-            CHECK(same(one, stepped(start, threads, 100)));
+            CHECK(same(one, stepped(start, threads, 50)));
     }
 }
 
