@@ -149,6 +149,10 @@ class Polyhedra:
     @property
     def face_vertices(self) -> IntArray: ...
     @property
+    def joints(self) -> IntArray: ...
+    @property
+    def joint_cuts(self) -> FloatArray: ...
+    @property
     def sphere_of_cell(self) -> IntArray: ...
     @property
     def hidden_spheres(self) -> IntArray: ...
@@ -286,7 +290,11 @@ def polyhedra(
     short_edge: float,
     allow_hidden: bool,
     notches: list[tuple[float, float, bool]] = ...,
+    joints: list[tuple[tuple[float, float, float], float, FloatArray]] = ...,
 ) -> Polyhedra: ...
+def area_within(
+    normal: tuple[float, float, float], offset: float, corners: FloatArray, solid: Solid
+) -> float: ...
 def own_polyhedra(
     vertices: FloatArray,
     faces: tuple[IntArray, IntArray, IntArray],
@@ -294,6 +302,7 @@ def own_polyhedra(
     solid: Solid,
     short_edge: float,
     pores: IntArray,
+    joints: list[tuple[tuple[float, float, float], float, FloatArray]] = ...,
 ) -> Polyhedra: ...
 def weighted_cells(points: FloatArray, weights: FloatArray, solid: Solid) -> WeightedCells: ...
 def weights_of_volumes(

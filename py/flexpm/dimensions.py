@@ -39,20 +39,11 @@ FEATURES = {
     "thickness": Feature(
         "thicknesses", 2, ("--thickness",), "leave it out, the sizes of a 3D specimen include it"
     ),
-    "joints": Feature(
-        "joints",
+    "joint_maps": Feature(
+        "maps of joints",
         2,
-        (
-            *("Specimen.with_joints", "Specimen.joints_from_csv", "Specimen.joints_from_geojson"),
-            "--joints",
-        ),
-        "leave them out or take a 2D specimen",
-    ),
-    "network": Feature(
-        "fracture networks",
-        2,
-        ("Specimen.with_network", "--network"),
-        "leave them out or take a 2D specimen",
+        ("Specimen.joints_from_geojson", "--joints with a .geojson file", "--name", "--origin"),
+        "give planes, discs or polygons as a CSV file, or take a 2D specimen",
     ),
     "excavation": Feature(
         "excavations",

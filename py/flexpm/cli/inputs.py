@@ -256,7 +256,8 @@ def made(
             of_run = (run.material, run.model, found.mean_diameter)
             for line in doubts.of_grain_size(*of_run, solid=run.is_solid):
                 _warn(line)
-    if specimen.lines is not None or specimen.network is not None:
+    cut = (specimen.lines, specimen.network, specimen.planes or None, specimen.discs)
+    if any(one is not None for one in cut):
         for line in doubts.of_cuts({name: one.to_json() for name, one in found.told_cuts.items()}):
             _warn(line)
     return found
@@ -285,18 +286,13 @@ def resumed(
     return made(specimen, progress, [run])
 
 
-#: Options that name a file of lines.
-_FILES = ("joints_file", "network_file")
-
-
 def _refuse_plane(shape: str) -> None:
     """Reject options of 2D specimens for a 3D specimen."""
     context = click.get_current_context()
-    for name in ("thickness", "joints_file", "network_file", "points", "mesh"):
+    for name in ("thickness", "points", "mesh"):
         if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
-            value = context.params.get(name)
-            told = with_unit(name.removesuffix("_file"), str(value) if name in _FILES else value)
-            raise refused(f"{told}, must not be given for a {shape}", name.removesuffix("_file"))
+            told = with_unit(name, context.params.get(name))
+            raise refused(f"{told}, must not be given for a {shape}", name)
 
 
 def refuse_packing() -> None:

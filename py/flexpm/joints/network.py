@@ -30,7 +30,8 @@ from .window import Window
 MOST_TRACES = 20_000
 #: Keeps the draw of networks apart from other draws with the same seed.
 _STREAM = 70
-_SEED = Bounds(at_least=0, at_most=2**64 - 1)
+#: Seeds of networks.
+SEED = Bounds(at_least=0, at_most=2**64 - 1)
 #: Intensities P21 [1/m].
 _INTENSITY = Bounds(above=0.0, at_least=1e-6, at_most=1e9)
 _KEYS = ("intensity", "length", "orientation")
@@ -111,7 +112,7 @@ class Network:
         for name, one in sets.items():
             check_name(name, "network set")
             found[name] = _set_of(f"network set {name}:", one)
-        return cls(require_whole("network seed", chosen, _SEED), found)
+        return cls(require_whole("network seed", chosen, SEED), found)
 
     def to_json(self) -> Table:
         """The table that ``of`` reads."""
@@ -127,7 +128,7 @@ class Network:
 
     def with_seed(self, seed: int) -> Network:
         """Return the same network with another seed."""
-        return dataclasses.replace(self, seed=require_whole("network seed", seed, _SEED))
+        return dataclasses.replace(self, seed=require_whole("network seed", seed, SEED))
 
     def traces(self, window: Window) -> dict[str, FloatArray]:
         """Generate the traces of each set, ends (n, 2, 2) [m], before they are clipped.
@@ -144,7 +145,7 @@ class Network:
                 f"{one.length.longest:.4g} m, must be <= {MOST_TRACES} in all sets; use a lower "
                 "intensity, longer traces or a lower upper cut-off"
             )
-        return {name: one.draw(window, self._generator(name)) for name, one in self.sets.items()}
+        return {name: one.draw(window, generator_of(self.seed, name)) for name, one in self.sets.items()}
 
     def lines(self, window: Window) -> Lines:
         """Generate the traces and clip them; a set without a trace in the window has no lines.
@@ -164,10 +165,11 @@ class Network:
             )
         return found
 
-    def _generator(self, name: str) -> np.random.Generator:
-        """Numbers of a set, which do not depend on the others."""
-        words = [_STREAM, self.seed, *name.encode()]
-        return np.random.Generator(np.random.PCG64(np.random.SeedSequence(words)))
+
+def generator_of(seed: int, name: str) -> np.random.Generator:
+    """Random numbers of a set, which do not depend on the other sets."""
+    words = [_STREAM, seed, *name.encode()]
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(words)))
 
 
 def _set_of(where: str, given: object) -> TraceSet:

@@ -66,7 +66,7 @@ class Constant(Lengths):
         return np.full(count, self.value)
 
 
-def _reversed(smallest: float, largest: float) -> str:
+def reversed_cutoffs(smallest: float, largest: float) -> str:
     """The rule that cut-offs break, empty if none."""
     if smallest < largest:
         return ""
@@ -94,10 +94,10 @@ class Lognormal(Lengths):
 
     def broken(self) -> str:
         """Refuse cut-offs that are reversed, or between which hardly any length lies."""
-        if rule := _reversed(self.smallest, self.largest):
+        if rule := reversed_cutoffs(self.smallest, self.largest):
             return rule
         low, high = self._bounds()
-        share = _normal_share(low, high)
+        share = normal_share(low, high)
         if share < _LEAST_SHARE:
             return (
                 f"share between the cut-offs = {share:.3g}, must be >= {_LEAST_SHARE:g}; move the "
@@ -110,8 +110,8 @@ class Lognormal(Lengths):
         """Mean length, between the cut-offs [m]."""
         low, high = self._bounds()
         spread = self._spread
-        moved = _normal_share(low - spread, high - spread)
-        return self.mean * moved / _normal_share(low, high)
+        moved = normal_share(low - spread, high - spread)
+        return self.mean * moved / normal_share(low, high)
 
     @property
     def longest(self) -> float:
@@ -142,7 +142,7 @@ class Lognormal(Lengths):
         return low, high
 
 
-def _normal_share(low: float, high: float) -> float:
+def normal_share(low: float, high: float) -> float:
     """Share of a normal law between two scores, from the tail in which it is not lost."""
     if low > 0.0:
         low, high = -high, -low
@@ -170,7 +170,7 @@ class Power(Lengths):
                 f"exponent = {self.exponent:g}, must be > 2: otherwise the law has a mean only by "
                 "its upper cut-off; give a larger exponent"
             )
-        return _reversed(self.smallest, self.largest)
+        return reversed_cutoffs(self.smallest, self.largest)
 
     @property
     def expected(self) -> float:

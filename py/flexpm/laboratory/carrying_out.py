@@ -126,7 +126,7 @@ def _tested(
     elif folder is not None:
         write_vtu(folder / "specimen.vtu", built.snapshot(), about(spec.to_json()))
         give_back_memory()
-        if specimen.spec.networks:
+        if specimen.spec.networks and not spec.is_solid:
             from ..report.rose import rose_picture
 
             rose_picture(folder / ROSE, specimen)

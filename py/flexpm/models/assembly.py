@@ -13,7 +13,7 @@ import numpy as np
 from yade import wrapper
 
 from .._flexpm import AssemblyInput, InnerCells, Tessellation
-from ..arrays import FloatArray
+from ..arrays import FloatArray, IntArray
 from ..errors import InputError
 from ..files import Table
 from ..materials.joint import require_joints
@@ -21,7 +21,7 @@ from ..materials.material import Material
 from ..materials.mixing import description, mineral_materials, pair_materials
 from ..require import require_one_of
 from ..specimens import inner_particles, mineral_map
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import AnySpecimen, Specimen
 from ..specimens.strength_map import factors_of
 from .options import INNER_MODELS, MESHES, POINTS
 
@@ -121,19 +121,32 @@ def _tell_joints(cells: AssemblyInput, grains: Grains, chosen: Material) -> list
     factors = factors_of(specimen, chosen)
     if factors is not None:
         cells.edge_strengths = np.ascontiguousarray(factors)
+    materials, joints = joints_of(specimen, chosen, grains.model)
+    if joints is not None:
+        cells.edge_joints = joints
+    return materials
+
+
+def joints_of(
+    specimen: AnySpecimen, chosen: Material, model: str
+) -> tuple[list[wrapper.GrainMat], IntArray | None]:
+    """Return the materials of the joints, and the joint of each contact, -1: none.
+
+    Raises:
+        InputError: for a joint without a law.
+    """
     if specimen.edge_joints is None:
-        return []
-    laws = {law["name"]: law for law in chosen.joint_laws(grains.model)}
+        return [], None
+    laws = {law["name"]: law for law in chosen.joint_laws(model)}
     names = specimen.spec.joint_names or ()
     bearing = specimen.spec.joints_with_law
     require_joints(bearing, list(laws))
     if not bearing:
-        return []
+        return [], None
     # lines of excavations are rock until then
     numbers = [bearing.index(name) if name in bearing else -1 for name in names]
     joints = np.array([*numbers, -1], dtype=np.int32)[specimen.edge_joints]
-    cells.edge_joints = np.ascontiguousarray(joints)
-    return [_joint_material(laws[name]) for name in bearing]
+    return [_joint_material(laws[name]) for name in bearing], np.ascontiguousarray(joints)
 
 
 def _joint_material(law: Table) -> wrapper.GrainMat:

@@ -18,7 +18,7 @@ from ..specimens import mineral_map
 from ..specimens.kernel_input import call
 from ..specimens.space.specimen import SolidSpecimen
 from ..specimens.strength_map import factors_of
-from .assembly import grain_material
+from .assembly import grain_material, joints_of
 from .options import SOLID_MODELS, require_model
 
 #: What the elastic solve takes of the law of each pair of minerals, in this order.
@@ -39,6 +39,7 @@ def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.
     minerals = _minerals(specimen, chosen, model)
     pairs = [] if minerals is None else pair_materials(chosen, model)
     factors = factors_of(specimen, chosen)
+    materials, joints = joints_of(specimen, chosen, model)
     solver: wrapper.GrainSolver = wrapper.SolidSolver()
     try:
         solver.assembleSolid(
@@ -49,6 +50,8 @@ def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.
             [] if minerals is None else minerals.tolist(),
             rigid=model == "rigid",
             strengths=[] if factors is None else factors.tolist(),
+            joints=materials,
+            contact_joints=[] if joints is None else joints.tolist(),
         )
     except (ValueError, RuntimeError) as error:
         raise InputError(f"build: {error}") from error
@@ -77,9 +80,11 @@ def _minerals(specimen: SolidSpecimen, chosen: Material, model: str) -> IntArray
     return mineral_map.minerals_of(specimen, chosen)
 
 
-def _elastic_of_rigid(specimen: SolidSpecimen, chosen: Material) -> dict[str, float]:
+def _elastic_of_state(
+    specimen: SolidSpecimen, chosen: Material, model: str
+) -> dict[str, float]:
     try:
-        modulus, ratio = solver_of(specimen, chosen, "rigid").elasticConstants()
+        modulus, ratio = solver_of(specimen, chosen, model).elasticConstants()
     except RuntimeError as error:
         raise SimulationError(str(error)) from None
     return {
@@ -105,8 +110,8 @@ def elastic_of_solid(specimen: SolidSpecimen, chosen: Material, model: str) -> d
             f"elastic: specimen = {specimen.kind}, must be a box or a cylinder; use one of these "
             "shapes"
         )
-    if model == "rigid":
-        return _elastic_of_rigid(specimen, chosen)
+    if model == "rigid" or specimen.planes:
+        return _elastic_of_state(specimen, chosen, model)
     minerals = _minerals(specimen, chosen, model)
     pairs = [chosen] if minerals is None else pair_materials(chosen, model)
     # a pair's element constants are those of its first mineral

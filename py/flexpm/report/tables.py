@@ -311,11 +311,19 @@ def statistics_table(found: Table) -> str:
         words, factor, unit = _FIGURES.get(name, (words_of(name), 1.0, ""))
         if name == "joints":
             for joint, cut in value.items():
+                if "planes" in cut:
+                    planes = f"{cut['planes'] - cut['idle'] - cut['outside']} of {cut['planes']}"
+                    area = f"{1e6 * cut['cut']:.4g} of {1e6 * cut['within']:.4g} mm2"
+                    rows.append((f"joint {joint}: planes that cut, area", f"{planes}, {area}"))
+                    continue
                 lines = f"{cut['lines'] - cut['idle']} of {cut['lines']}"
                 length = f"{1e3 * cut['cut']:.4g} of {1e3 * cut['length']:.4g} mm"
                 rows.append((f"joint {joint}: lines that cut, length", f"{lines}, {length}"))
         elif name == "networks":
             for joint, one in value.items():
+                if "p10_x" in one:
+                    rows.append((f"joint {joint}: P32 target, generated, cut", intensities(one)))
+                    continue
                 numbers = ", ".join(f"{number:.4g}" for number in one.values())
                 rows.append((f"joint {joint}: P21 {', '.join(one)}", f"{numbers} 1/m"))
         elif isinstance(value, Mapping):
@@ -326,6 +334,13 @@ def statistics_table(found: Table) -> str:
         else:
             rows.append((words, scaled(value, factor, unit)))
     return table(rows)
+
+
+def intensities(one: Table) -> str:
+    """Return the P32 of a set of planes; a set may have no target."""
+    keys = ("target", "generated", "cut")
+    numbers = ("none" if one[key] is None else f"{one[key]:.4g}" for key in keys)
+    return f"{', '.join(numbers)} 1/m"
 
 
 def _share(share: float) -> str:

@@ -493,6 +493,9 @@ def of_cuts(cuts: Table) -> list[str]:
     """
     found = []
     for name, cut in cuts.items():
+        if "planes" in cut:  # of a solid
+            found += _of_planes(name, cut)
+            continue
         inside = cut["length"] - cut["outside"]
         if cut["idle"] or cut["taken"] > LARGEST_TAKEN * inside:
             missing = max(inside - cut["cut"], 0.0)
@@ -504,6 +507,24 @@ def of_cuts(cuts: Table) -> list[str]:
         rest = len(found) - _NAMED_JOINTS
         found = [*found[:_NAMED_JOINTS], f"and {rest} more joints, see joint_cuts"]
     return [". ".join(found)] if found else []
+
+
+def _of_planes(name: str, cut: Table) -> list[str]:
+    """Warn of planes of a joint that are not cut."""
+    if cut["outside"] == cut["planes"]:
+        return [f"joint {name}: all {cut['planes']} planes lie outside the specimen"]
+    if not (cut["idle"] or cut["taken"] > LARGEST_TAKEN * cut["within"]):
+        return []
+    reason = "around small parts"
+    if cut["taken"] > cut["bridged"]:
+        reason = "on faces of joints that were cut first"
+    elif cut["bridged"] > 0.0:
+        reason = "within grains"
+    missing = max(cut["within"] - cut["cut"], 0.0)
+    return [
+        f"joint {name}: {cut['idle']} of {cut['planes']} planes cut nothing, {1e6 * missing:.3g} of "
+        f"{1e6 * cut['within']:.3g} mm2 in the specimen are not cut; most of it lies {reason}"
+    ]
 
 
 def of_set_point(measure: str, missed: float) -> list[str]:

@@ -272,9 +272,24 @@ def _of_networks(networks: Sequence[Table]) -> Iterator[Input]:
     for network in networks:
         yield Input("network_seed", network["seed"], "", "given")
         for name, one in network["set"].items():
+            if "kind" in one:
+                yield from _of_solid_set(name, one)
+                continue
             for key in ("length", "orientation"):
                 yield Input(f"{name}: {key}", _law_text(one[key]), "", "given")
             yield Input(f"{name}: intensity P21", one["intensity"], "1/m", "given")
+
+
+def _of_solid_set(name: str, one: Table) -> Iterator[Input]:
+    """A set of discs or planes in 3D."""
+    units = {"intensity": "1/m", "dip": "degree", "dip_direction": "degree"}
+    for key, value in one.items():
+        label = f"{name}: {key.replace('_', ' ')}"
+        if key == "intensity":
+            label += " P32"
+        text = _law_text(value) if isinstance(value, dict) else value
+        unit = "m" if key in ("spacing", "origin") else units.get(key, "")
+        yield Input(label, text, unit, "given")
 
 
 def _law_text(law: Table) -> str:

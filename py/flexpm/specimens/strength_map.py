@@ -35,7 +35,7 @@ def contacts_of(specimen: AnySpecimen) -> int:
 
 def on_joints(specimen: AnySpecimen) -> BoolArray:
     """Whether each contact lies on a joint; lines of later excavations are rock until then."""
-    if isinstance(specimen, SolidSpecimen) or specimen.edge_joints is None:
+    if specimen.edge_joints is None:
         return np.zeros(contacts_of(specimen), dtype=bool)
     names = specimen.spec.joint_names or ()
     bearing = [names.index(name) for name in specimen.spec.joints_with_law]

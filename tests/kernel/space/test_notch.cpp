@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file  A notch across a packing: closed cells, no volume lost, flanks in its plane, a front that
 /// is straight to half a cell, and nothing that joins its sides below.
-#include "support/sphere_samples.hpp"
+#include "space/closed_cells.hpp"
 
 #include <flexpm/kernel/space/fan_meshes.hpp>
 
@@ -41,24 +41,6 @@ Flanks flanks(const Polyhedra& cells, const Solid& of, double x, int notch = 0)
             found.off = std::max(found.off, std::abs(p.x - x));
     }
     return found;
-}
-
-/// Edges of cells that are not in two faces of theirs, once each way.
-int loose_edges(const Polyhedra& cells)
-{
-    int wrong = 0;
-    std::map<std::array<int, 3>, int> edges;
-    for (std::size_t f = 0; f < cells.faces.size(); ++f) {
-        const auto corners = cells.corners(static_cast<int>(f));
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const int u = corners[k], v = corners[(k + 1) % corners.size()];
-            wrong += edges[{ cells.faces[f].cell_a, u, v }]++;
-            if (cells.faces[f].cell_b >= 0) wrong += edges[{ cells.faces[f].cell_b, v, u }]++;
-        }
-    }
-    for (const auto& [edge, times] : edges)
-        wrong += edges.count({ edge[0], edge[2], edge[1] }) != 1;
-    return wrong;
 }
 
 double volume(const Polyhedra& cells)

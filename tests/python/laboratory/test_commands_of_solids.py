@@ -83,7 +83,7 @@ REFUSED = {
         ("--span 0.001", "span = 0.001 m, must be > 0.003: both supports"),
         ("--notch 0.04", "notch = 0.04 m, must be"),
         ("--notch 0.01 --span 0.04", "2.5 times the height"),
-        ("--joints no.csv", "joints = no.csv, must not be given for a box"),
+        ("--joints no.geojson", "must be left out for a box: maps of joints are"),
     ],
     "brazilian --depth 0.02": [
         ("--thickness 0.01", "thickness = 0.01 m, must not be"),
@@ -99,7 +99,7 @@ REFUSED = {
     "shear --depth 0.02": [
         ("--thickness 0.01", "thickness = 0.01 m, must not be"),
         ("--model jcfpm", "must be one of flexible, rigid"),
-        ("--joints no.csv", "joints = no.csv, must not be given for a box"),
+        ("--joints no.geojson", "must be left out for a box: maps of joints are"),
         ("--normal-stress -1", "normal-stress = -1 Pa, must be > 0"),
     ],
     "punch --width 0.03 --height 0.02 --depth 0.008": [

@@ -114,8 +114,9 @@ struct FaceContacts {
     int count = 0;
     std::vector<LawParameters> laws;
     std::vector<GrainPair> pairs;
-    std::vector<int> law;   ///< index into `laws`
-    std::vector<int> slot;  ///< block * lanes + lane of each contact
+    std::vector<int> law;    ///< index into `laws`
+    std::vector<int> joint;  ///< joint on which the contact lies, -1: none
+    std::vector<int> slot;   ///< block * lanes + lane of each contact
     std::vector<FaceGroup> groups;
     std::vector<int> block_group;   ///< group of each block
     std::vector<int> block_nodes;   ///< offset of each block in `nodes`, and the end
@@ -225,6 +226,7 @@ struct FaceContacts {
         visit("laws", s.laws);
         visit("pairs", s.pairs);
         visit("law", s.law);
+        visit("joint", s.joint);
         visit("slot", s.slot);
         visit("groups", s.groups);
         visit("block_group", s.block_group);

@@ -17,6 +17,7 @@ struct CellFace {
     int second;                ///< cell on the other side, or -1
     int wall;                  ///< wall it lies on, or -1
     std::vector<int> corners;  ///< vertices, counter-clockwise as seen from outside `first`
+    int joint = -1;            ///< joint it lies on, or -1
 };
 
 /// Cells as their faces: each edge of a cell is in two of its faces.

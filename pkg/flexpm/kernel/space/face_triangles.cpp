@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Each corner of a polygon is tried.
+/// @file  Each corner of a polygon is tried as the tip of a fan.
 #include <flexpm/kernel/space/face_triangles.hpp>
 
 #include <algorithm>
@@ -32,6 +32,64 @@ std::vector<double> fan_qualities(
     return qualities;
 }
 
+/// Triangles of a convex polygon whose worst one is as good as can be, for polygons with corners on
+/// straight edges, where each fan may have a triangle without area.
+class BestTriangles {
+public:
+    BestTriangles(const std::vector<Vector>& v, const std::vector<int>& c) :
+        vertices(v),
+        corners(c),
+        size(c.size()),
+        quality(size * size, 1e300),
+        middle(size * size, 0)
+    {
+        for (std::size_t span = 2; span < size; ++span)
+            for (std::size_t from = 0; from + span < size; ++from)
+                choose(from, from + span);
+    }
+
+    std::vector<FaceTriangle> run()
+    {
+        add(0, size - 1);
+        return found;
+    }
+
+private:
+    const std::vector<Vector>& vertices;
+    const std::vector<int>& corners;
+    std::size_t size;
+    std::vector<double> quality;      ///< of the worst triangle between corners [from][to]
+    std::vector<std::size_t> middle;  ///< third corner of the triangle on the line between them
+    std::vector<FaceTriangle> found;
+
+    void choose(std::size_t from, std::size_t to)
+    {
+        double best = -1.0;
+        for (std::size_t k = from + 1; k < to; ++k) {
+            const double own = triangle_quality(
+                vertices[corners[from]], vertices[corners[k]], vertices[corners[to]]);
+            const double worst
+                = std::min({ own, quality[from * size + k], quality[k * size + to] });
+            if (worst <= best) continue;
+            best = worst;
+            middle[from * size + to] = k;
+        }
+        quality[from * size + to] = best;
+    }
+
+    void add(std::size_t from, std::size_t to)
+    {
+        if (to < from + 2) return;
+        const std::size_t k = middle[from * size + to];
+        found.push_back({ corners[from], corners[k], corners[to] });
+        add(from, k);
+        add(k, to);
+    }
+};
+
+/// Square of height over length below which a triangle is a line.
+constexpr double flat = 1e-12;
+
 }  // namespace
 
 std::vector<FaceTriangle> face_triangles(
@@ -42,6 +100,7 @@ std::vector<FaceTriangle> face_triangles(
     const std::vector<double> qualities = fan_qualities(vertices, corners);
     const auto best = static_cast<std::size_t>(
         std::max_element(qualities.begin(), qualities.end()) - qualities.begin());
+    if (n > 3 && qualities[best] < flat) return BestTriangles(vertices, corners).run();
     std::vector<FaceTriangle> triangles;
     for (std::size_t k = 1; k + 1 < n; ++k)
         triangles.push_back({ at(best), at(best + k), at(best + k + 1) });

@@ -12,8 +12,9 @@ namespace flexpm {
 /// Three vertices, in the sense of the polygon they are cut from.
 using FaceTriangle = std::array<int, 3>;
 
-/// Cut a polygon from the corner whose worst triangle is best: height over longest edge. Both
-/// grains of a contact use the same cut.
+/// Cut a polygon from the corner whose worst triangle is best: height over longest edge. If corners
+/// on straight edges leave no such fan, other triangles are as good as can be. Both grains of a
+/// contact use the same cut.
 std::vector<FaceTriangle> face_triangles(
     const std::vector<Vector>& vertices, const std::vector<int>& corners);
 

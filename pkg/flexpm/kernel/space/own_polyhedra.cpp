@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -276,6 +275,26 @@ void require_sizes(const std::vector<Sphere>& spheres, const Solid& solid)
     }
 }
 
+/// Centres of whole cells, and centroids of pieces.
+std::vector<Vector> centres_of(const CellComplex& complex, const std::vector<Sphere>& spheres,
+    const std::vector<int>& sources)
+{
+    std::vector<Vector> centres;
+    for (const Sphere& sphere : spheres)
+        centres.push_back(sphere.centre);
+    if (sources.empty()) return centres;
+    std::vector<bool> cut(spheres.size());
+    for (int source : sources) {
+        centres.push_back(spheres[source].centre);
+        cut[source] = true;
+        cut.push_back(true);
+    }
+    const auto centroids = cell_centroids(complex, centres, cell_volumes(complex));
+    for (std::size_t c = 0; c < centres.size(); ++c)
+        if (cut[c]) centres[c] = centroids[c];
+    return centres;
+}
+
 }  // namespace
 
 Polyhedra own_polyhedra(const OwnCells& own, const Solid& solid, double short_edge)
@@ -286,14 +305,20 @@ Polyhedra own_polyhedra(const OwnCells& own, const Solid& solid, double short_ed
     CellComplex complex = Checker(own, solid).run();
     merge_close_vertices(complex, zero_edge * mean_diameter(own.spheres));
     require_centres(complex, own.spheres);
-    std::vector<Vector> centres;
-    for (const Sphere& sphere : own.spheres)
-        centres.push_back(sphere.centre);
-    complex.flanks = static_cast<int>(solid.walls.size());
+    const auto whole = static_cast<int>(own.spheres.size());
+    CutCells cut = cut_cells(complex, solid, mean_diameter(own.spheres), own.joints, {});
     Polyhedra p;
+    p.joint_cuts = std::move(cut.joints);
     p.hidden_spheres = own.pores;
-    finish_cells(p, complex, centres, short_edge);
-    std::iota(p.sphere_of_cell.begin(), p.sphere_of_cell.end(), 0);
+    for (std::size_t k = 0; k < cut.sources.size(); ++k)
+        if (std::binary_search(own.pores.begin(), own.pores.end(), cut.sources[k]))
+            p.hidden_spheres.push_back(whole + static_cast<int>(k));
+    finish_cells(p, complex, centres_of(complex, own.spheres, cut.sources), short_edge);
+    for (int& cell : p.sphere_of_cell) {
+        const int given = cell < whole ? cell : cut.sources[cell - whole];
+        const auto before = std::lower_bound(own.pores.begin(), own.pores.end(), given);
+        cell = given - static_cast<int>(before - own.pores.begin());
+    }
     p.hidden_spheres.clear();
     return p;
 }

@@ -21,6 +21,7 @@ struct OwnCells {
     std::vector<OwnFace> faces;
     std::vector<Sphere> spheres;  ///< per cell its centre, well inside, and the size of the cell
     std::vector<int> pores = {};  ///< cells that are taken out in the end, in order
+    std::vector<JointPlane> joints = {};  ///< cut in this order; cut cells get their centroids
 };
 
 /// Convex cells that fill a solid, short edges collapsed as those of spheres are. Messages count

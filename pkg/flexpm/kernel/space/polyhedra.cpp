@@ -20,10 +20,6 @@ constexpr double zero_volume = 1e-12;
 /// Distance of a centre from the faces of its cell over the cell's size below which it is moved.
 constexpr double well_inside = 0.02;
 
-/// Depth over the mean diameter, and volume over the mean one, of the least piece that a notch cuts
-/// off: as slivers of the plane, deviation D33.
-constexpr double least_depth = 0.15, least_volume = 0.02;
-
 /// Numbers of the spheres without a cell.
 std::vector<int> find_hidden(const CellComplex& complex, const std::vector<double>& volumes)
 {
@@ -89,6 +85,7 @@ void number_cells(Polyhedra& p, CellComplex& complex, const std::vector<Vector>&
         if (face.wall >= complex.flanks) begin_alike(complex.vertices, face.corners);
         const int second = face.second < 0 ? -1 : cell_of_sphere[face.second];
         p.faces.push_back({ cell_of_sphere[face.first], second, face.wall });
+        if (second >= 0) p.joints.push_back(face.joint);
         for (int old : face.corners) {
             int& v = new_index[old];
             if (v < 0) {
@@ -166,30 +163,6 @@ void finish_cells(
     add_volumes(p);
 }
 
-namespace {
-
-/// Cut cells by notches; returns the spheres of the pieces that are added.
-std::vector<int> cut_notches(CellComplex& complex, const std::vector<Sphere>& spheres,
-    const Solid& solid, const std::vector<NotchPlane>& notches)
-{
-    const double diameter = mean_diameter(spheres), close = zero_edge * diameter;
-    const double volume = least_volume * solid.volume / static_cast<double>(spheres.size());
-    const auto whole = static_cast<int>(spheres.size());
-    int wall = complex.flanks = static_cast<int>(solid.walls.size());
-    std::vector<int> sources;
-    for (const NotchPlane& notch : notches) {
-        check_finite("place of a notch", notch.x + notch.front, "m");
-        const NotchCut cut = { notch.x, notch.from_above ? -notch.front : notch.front,
-            notch.from_above, close, least_depth * diameter, volume, wall++ };
-        for (int cell : cut_by_notch(complex, cut))
-            sources.push_back(cell < whole ? cell : sources[cell - whole]);
-        merge_close_vertices(complex, close);
-    }
-    return sources;
-}
-
-}  // namespace
-
 Polyhedra polyhedra(
     const std::vector<Sphere>& given, const Solid& solid, const PolyhedraOptions& options)
 {
@@ -201,14 +174,15 @@ Polyhedra polyhedra(
     merge_close_vertices(complex, zero_edge * diameter);
     std::vector<Sphere> spheres = given;
     std::vector<bool> moved(given.size());
-    const std::vector<int> sources = cut_notches(complex, given, solid, options.notches);
-    for (int source : sources) {
+    CutCells cut = cut_cells(complex, solid, diameter, options.joints, options.notches);
+    for (int source : cut.sources) {
         spheres.push_back(given[source]);
         moved[source] = true;  // both pieces are meshed from their centroids
         moved.push_back(true);
     }
 
     Polyhedra p;
+    p.joint_cuts = std::move(cut.joints);
     const auto volumes = cell_volumes(complex);
     p.hidden_spheres = find_hidden(complex, volumes);
     if (!options.allow_hidden) refuse_hidden(spheres, p.hidden_spheres);
@@ -228,7 +202,7 @@ Polyhedra polyhedra(
     for (int c = 0; c < p.cells(); ++c) {
         int& sphere = p.sphere_of_cell[c];
         if (moved[sphere]) p.moved_centres.push_back(c);
-        if (sphere >= static_cast<int>(given.size())) sphere = sources[sphere - given.size()];
+        if (sphere >= static_cast<int>(given.size())) sphere = cut.sources[sphere - given.size()];
     }
     return p;
 }

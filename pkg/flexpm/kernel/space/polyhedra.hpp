@@ -3,6 +3,7 @@
 #pragma once
 
 #include <flexpm/kernel/space/cell_complex.hpp>
+#include <flexpm/kernel/space/joint_planes.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 
 #include <vector>
@@ -24,7 +25,9 @@ struct Polyhedra {
     std::vector<PolyhedronFace> faces;
     std::vector<int> face_offsets;  ///< of each face in `face_vertices`, and the end
     std::vector<int> face_vertices;
-    std::vector<int> sphere_of_cell;  ///< pieces of a cell that a notch has cut have one
+    std::vector<int> joints;          ///< per contact, the joint that it lies on, or -1
+    std::vector<JointOutcome> joint_cuts;  ///< outcome of each joint
+    std::vector<int> sphere_of_cell;  ///< pieces of a cell that has been cut have one
     std::vector<int> hidden_spheres;  ///< without a cell
     std::vector<int>
         moved_centres;  ///< cells whose centre is their centroid: the sphere's is not well inside
@@ -40,17 +43,11 @@ struct Polyhedra {
     }
 };
 
-/// Notch across a solid, along y, from below or from above. Deviation D99.
-struct NotchPlane {
-    double x = 0.0;      ///< [m]
-    double front = 0.0;  ///< z [m]
-    bool from_above = false;
-};
-
 struct PolyhedraOptions {
     double short_edge = 0.0;    ///< edges below this length are collapsed [m]
     bool allow_hidden = false;  ///< drop spheres without a cell (counted) instead of refusing them
     std::vector<NotchPlane> notches = {};  ///< which do not meet in a cell
+    std::vector<JointPlane> joints = {};   ///< cut in this order, before the notches
 };
 
 /// Cells of the spheres inside the solid, in the order of the spheres, short edges collapsed.

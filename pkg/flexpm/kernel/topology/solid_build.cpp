@@ -104,6 +104,15 @@ void check_input(const Polyhedra& cells, const SolidInput& input)
         refuse("make_solid: factors of strengths", static_cast<double>(input.strength.size()), "",
             "must be those of " + std::to_string(cells.contacts) + " contacts");
     }
+    if (!input.joint.empty() && static_cast<int>(input.joint.size()) != cells.contacts) {
+        refuse("make_solid: joints given", static_cast<double>(input.joint.size()), "",
+            "must be those of " + std::to_string(cells.contacts) + " contacts");
+    }
+    for (int joint : input.joint) {
+        if (joint < -1 || joint >= static_cast<int>(input.joints.size()))
+            refuse("make_solid: joint of a contact", joint, "",
+                "must be the index of a joint, or -1");
+    }
 }
 
 void size_grains(Grains& grains, int values)
@@ -314,14 +323,36 @@ void add_blocks(FaceContacts& c, const FaceGroup& group, int contacts)
     c.shares.resize(c.block_shares.back(), 0.0);
 }
 
+/// Joint of a contact, -1: none.
+int joint_of(const SolidInput& input, int face)
+{
+    return input.joint.empty() ? -1 : input.joint[face];
+}
+
 /// Index of the law of a contact; strengths of its own make it a law of its own.
 int law_of_face(Building& b, const PolyhedronFace& on, int face)
 {
-    const int pair = b.state.grains.law_index(on.cell_a, on.cell_b);
-    if (b.input.strength.empty()) return pair;
+    const SolidInput& input = b.input;
+    const int joint = joint_of(input, face), pairs = static_cast<int>(input.contacts.size());
+    const int law = joint >= 0 ? pairs + joint : b.state.grains.law_index(on.cell_a, on.cell_b);
+    if (input.strength.empty()) return law;
     auto& laws = b.state.contacts.laws;
-    laws.push_back(make_law(scaled_strength(b.input.contacts[pair], b.input.strength[face])));
+    const double factor = input.strength[face];
+    laws.push_back(joint >= 0 ? joint_law(scaled_strength(input.joints[joint], factor))
+                              : make_law(scaled_strength(input.contacts[law], factor)));
     return static_cast<int>(laws.size()) - 1;
+}
+
+/// Joints without strength are cracked from the start, and never count as cracks.
+void crack_from_start(Building& b)
+{
+    FaceContacts& c = b.state.contacts;
+    for (int contact = 0; contact < c.count; ++contact) {
+        const int joint = c.joint[contact];
+        if (joint < 0 || !is_cracked(b.input.joints[joint])) continue;
+        for (int p = 0; p < c.points_of(contact); ++p)
+            c.set_state(contact, p, FaceRow::shear_damage, 1.0);
+    }
 }
 
 void add_contacts(Building& b)
@@ -329,6 +360,8 @@ void add_contacts(Building& b)
     FaceContacts& c = b.state.contacts;
     for (const ContactMaterial& m : b.input.contacts)
         c.laws.push_back(make_law(m));
+    for (const ContactMaterial& m : b.input.joints)
+        c.laws.push_back(joint_law(m));
     c.count = b.cells.contacts;
     c.slot.resize(c.count);
     c.block_nodes = c.block_points = c.block_shares = { 0 };
@@ -338,6 +371,7 @@ void add_contacts(Building& b)
     for (int f = 0; f < c.count; ++f) {
         const PolyhedronFace& on = b.cells.faces[f];
         c.pairs.push_back({ on.cell_a, on.cell_b });
+        c.joint.push_back(joint_of(b.input, f));
         c.law.push_back(law_of_face(b, on, f));
         faces.push_back(read_face(b, f));
         keys.push_back(
@@ -409,6 +443,7 @@ SolidState make_solid(const Polyhedra& cells, const Solid& solid, const SolidInp
     for (int block = 0; block < s.grains.blocks(); ++block)
         add_tetrahedra(b, s.grains.in_slot[block * lanes]);
     add_contacts(b);
+    crack_from_start(b);
     fit(s.tetrahedra, s.contacts);
     add_surface(b);
     size_ledger(s.ledger, s.grains.blocks());

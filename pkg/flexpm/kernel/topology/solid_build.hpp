@@ -18,12 +18,15 @@ struct SolidInput {
     bool rigid = false;
     /// Of each contact: factor of its strengths, see scaled_strength(); empty: all 1.
     std::vector<double> strength {};
+    std::vector<ContactMaterial> joints {};  ///< strengths may be 0, see joint_law()
+    /// Of each contact: index into `joints`, -1: none; empty: all -1.
+    std::vector<int> joint {};
 };
 
 /// Specimen at rest, with real masses and the plan of a step. Grain g is cell g; blocks follow a
 /// curve through space, so that neighbours lie near each other in memory.
 ///
-/// @throws std::invalid_argument  if a property is out of range, a kind is unknown, an element has
+/// @throws std::invalid_argument  if a property is out of range, a kind or joint is unknown, an element has
 ///         no volume, or a face has more corners than most_corners
 SolidState make_solid(const Polyhedra& cells, const Solid& solid, const SolidInput& input);
 

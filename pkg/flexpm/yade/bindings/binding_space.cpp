@@ -64,27 +64,67 @@ namespace {
 		return dense_view(reinterpret_cast<const double*>(centres.data()), centres.size(), 3, py::object(), Access::readOnly).attr("copy")();
 	}
 
-	std::shared_ptr<Polyhedra> polyhedra(py::object rows, const Solid& solid, double shortEdge, bool allowHidden, py::list notches)
+	std::vector<flexpm::Vector> places(const py::object& array, const char* name)
+	{
+		const InputArray<double> input(array, 2, name);
+		if (input.size(0) > 0 && input.size(1) != 3)
+			throw std::invalid_argument(std::string(name) + " = rows of " + std::to_string(input.size(1)) + ", must be rows of 3; give x, y and z");
+		std::vector<flexpm::Vector> result;
+		for (std::size_t i = 0; i < input.size(0); ++i)
+			result.push_back({ input.data()[3 * i], input.data()[3 * i + 1], input.data()[3 * i + 2] });
+		return result;
+	}
+
+	flexpm::JointPlane jointPlane(const py::object& normal, double offset, const py::object& corners)
+	{
+		const auto component = [&](int i) { return double(py::extract<double>(normal[i])); };
+		return { { component(0), component(1), component(2) }, offset, places(corners, "corners") };
+	}
+
+	/// Planes of joints: normal, offset, and corners of a polygon, none for a whole plane.
+	std::vector<flexpm::JointPlane> jointPlanes(const py::list& joints)
+	{
+		std::vector<flexpm::JointPlane> result;
+		for (py::ssize_t i = 0; i < py::len(joints); ++i)
+			result.push_back(jointPlane(joints[i][0], py::extract<double>(joints[i][1]), joints[i][2]));
+		return result;
+	}
+
+	double areaWithin(py::object normal, double offset, py::object corners, const Solid& solid)
+	{
+		return flexpm::area_within(jointPlane(normal, offset, corners), solid);
+	}
+
+	py::object jointCuts(const Polyhedra& cells)
+	{
+		std::vector<double> values;
+		for (const auto& cut : cells.joint_cuts)
+			for (double value : { cut.within, cut.areas.cut, cut.areas.taken, cut.areas.bridged, cut.areas.beyond, cut.areas.detour, cut.areas.bend })
+				values.push_back(value);
+		return copied(values, 7, Access::readOnly);
+	}
+
+	std::shared_ptr<Polyhedra> polyhedra(py::object rows, const Solid& solid, double shortEdge, bool allowHidden, py::list notches, py::list joints)
 	{
 		flexpm::PolyhedraOptions options { shortEdge, allowHidden };
+		options.joints = jointPlanes(joints);
 		for (py::ssize_t i = 0; i < py::len(notches); ++i)
 			options.notches.push_back({ py::extract<double>(notches[i][0]), py::extract<double>(notches[i][1]), py::extract<bool>(notches[i][2]) });
 		return std::make_shared<Polyhedra>(flexpm::polyhedra(spheres(rows), solid, options));
 	}
 
 	/// Given cells: vertices, rows first, second of faces, their offsets among the corners, and spheres.
-	std::shared_ptr<Polyhedra> ownPolyhedra(py::object vertices, py::tuple faces, py::object rows, const Solid& solid, double shortEdge, py::object pores)
+	std::shared_ptr<Polyhedra> ownPolyhedra(py::object vertices, py::tuple faces, py::object rows, const Solid& solid, double shortEdge, py::object pores, py::list joints)
 	{
-		const InputArray<double> places(vertices, 2, "vertices");
 		const InputArray<int>    pairs(faces[0], 2, "pairs"), offsets(faces[1], 1, "offsets"), corners(faces[2], 1, "corners");
-		if (places.size(1) != 3 || pairs.size(1) != 2 || offsets.size(0) != pairs.size(0) + 1)
-			throw std::invalid_argument("vertices, pairs, offsets = of other sizes, must be rows of 3, rows of 2, and one offset more than pairs");
+		if (pairs.size(1) != 2 || offsets.size(0) != pairs.size(0) + 1)
+			throw std::invalid_argument("pairs, offsets = of other sizes, must be rows of 2, and one offset more than pairs");
 		flexpm::OwnCells own;
 		own.spheres = spheres(rows);
 		const InputArray<int> taken(pores, 1, "pores");
 		own.pores.assign(taken.data(), taken.data() + taken.size(0));
-		for (std::size_t i = 0; i < places.size(0); ++i)
-			own.vertices.push_back({ places.data()[3 * i], places.data()[3 * i + 1], places.data()[3 * i + 2] });
+		own.vertices = places(vertices, "vertices");
+		own.joints   = jointPlanes(joints);
 		for (std::size_t f = 0; f < pairs.size(0); ++f) {
 			const int first = offsets.data()[f], end = offsets.data()[f + 1];
 			if (first < 0 || end < first || static_cast<std::size_t>(end) > corners.size(0))
@@ -150,6 +190,12 @@ namespace {
 		        .add_property("face_offsets", integers<P, int, &P::face_offsets>, "Face i owns face_vertices[face_offsets[i]:face_offsets[i + 1]].")
 		        .add_property(
 		                "face_vertices", integers<P, int, &P::face_vertices>, "Vertex indices, counter-clockwise from outside cell_a, face after face.")
+		        .add_property("joints", integers<P, int, &P::joints>, "Index of the joint plane that each contact lies on, -1: none.")
+		        .add_property(
+		                "joint_cuts",
+		                jointCuts,
+		                "Areas of each joint plane, as seen along its normal [m^2]: within the solid, cut, taken by earlier planes, bridged by whole cells, and "
+		                "cut beyond the polygon; the true area of faces off the plane [m^2]; the largest distance of their corners from it [m].")
 		        .add_property("sphere_of_cell", integers<P, int, &P::sphere_of_cell>, "Sphere of each cell.")
 		        .add_property("hidden_spheres", integers<P, int, &P::hidden_spheres>, "Spheres without a cell.")
 		        .add_property("moved_centres", integers<P, int, &P::moved_centres>, "Cells whose centre is their centroid.")
@@ -198,14 +244,24 @@ void register_space_bindings()
 	        "Random centres without overlap, (n, 3) [m].");
 	py::def("polyhedra",
 	        polyhedra,
-	        (py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("allow_hidden"), py::arg("notches") = py::list()),
+	        (py::arg("spheres"),
+	         py::arg("solid"),
+	         py::arg("short_edge"),
+	         py::arg("allow_hidden"),
+	         py::arg("notches") = py::list(),
+	         py::arg("joints")  = py::list()),
 	        "Return the Laguerre cells of spheres, rows x, y, z, radius. notches: x and z of the front of each notch, and whether it comes from above; the "
-	        "flanks of notch i have the wall index walls + i.");
+	        "flanks of notch i have the wall index walls + i. joints: normal, offset and corners (n, 3) of each joint plane, no corners: the whole plane; they "
+	        "are cut in their order.");
+	py::def("area_within",
+	        areaWithin,
+	        (py::arg("normal"), py::arg("offset"), py::arg("corners"), py::arg("solid")),
+	        "Return the area of a joint plane inside a solid [m^2].");
 	py::def("own_polyhedra",
 	        ownPolyhedra,
-	        (py::arg("vertices"), py::arg("faces"), py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("pores")),
+	        (py::arg("vertices"), py::arg("faces"), py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("pores"), py::arg("joints") = py::list()),
 	        "Return user-supplied convex cells. faces: pairs of cells, offsets of the faces in the list of corners, and this list; spheres: rows x, y, z, "
-	        "radius of the cells; pores: cells that are taken out after short edges are collapsed, in order.");
+	        "radius of the cells; pores: cells that are taken out after short edges are collapsed, in order; joints: as for polyhedra.");
 	py::def("fan_meshes", fanMeshes, py::arg("cells"), "Tetrahedra of all cells.");
 	py::def("solid_constants",
 	        solidConstants,

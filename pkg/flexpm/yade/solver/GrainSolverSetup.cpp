@@ -145,7 +145,15 @@ void GrainSolver::insertContacts()
 }
 
 void GrainSolver::assembleSolid(
-        const flexpm::Polyhedra& cells, const flexpm::Solid& outline, py::list minerals, py::list pairs, vector<int> kinds, bool rigid, vector<Real> strengths)
+        const flexpm::Polyhedra& cells,
+        const flexpm::Solid&     outline,
+        py::list                 minerals,
+        py::list                 pairs,
+        vector<int>              kinds,
+        bool                     rigid,
+        vector<Real>             strengths,
+        py::list                 joints,
+        vector<int>              contactJoints)
 {
 	if (hasGrains()) flexpm::refuse(getClassName() + ": grains", grainCount(), "", "are assembled already; make another " + getClassName());
 	flexpm::SolidInput input;
@@ -154,9 +162,12 @@ void GrainSolver::assembleSolid(
 		input.grains.push_back(elasticOf(static_cast<const GrainMat&>(*m)));
 	for (const auto& m : py::len(pairs) > 0 ? materialsOf(pairs) : ofGrains)
 		input.contacts.push_back(contactOf(static_cast<const GrainMat&>(*m)));
+	for (const auto& m : materialsOf(joints))
+		input.joints.push_back(contactOf(static_cast<const GrainMat&>(*m)));
 	input.kind     = kinds;
 	input.rigid    = rigid;
 	input.strength = strengths;
+	input.joint    = contactJoints;
 	space          = flexpm::make_solid(cells, outline, input);
 	keepMaterials(ofGrains);
 }

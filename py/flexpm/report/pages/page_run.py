@@ -360,15 +360,18 @@ def _rates_table(result: Result) -> Rows | None:
 
 
 def _networks_table(result: Result) -> Rows | None:
-    """Return the P21 of each set of a fracture network; None without a network."""
+    """Return the intensity of each set of a fracture network; None without a network."""
     if not result.networks:
         return None
     keys = ("target", "generated", "cut")
     rows = [
-        (name, *(f"{found[key]:.4g}" for key in keys)) for name, found in result.networks.items()
+        (name, *("none" if found[key] is None else f"{found[key]:.4g}" for key in keys))
+        for name, found in result.networks.items()
     ]
-    note = "Generated: traces in the specimen; cut: contacts on the traces."
-    return Rows("Fracture network, P21 [1/m]", ("joint", *keys), rows, note)
+    solid = any("p10_x" in found for found in result.networks.values())
+    measure, shapes = ("P32", "planes") if solid else ("P21", "traces")
+    note = f"Generated: {shapes} in the specimen; cut: contacts on the {shapes}."
+    return Rows(f"Fracture network, {measure} [1/m]", ("joint", *keys), rows, note)
 
 
 def _energy_chart(result: Result) -> Chart:

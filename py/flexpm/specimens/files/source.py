@@ -10,9 +10,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...dimensions import refused
 from ...errors import InputError
-from ...joints import geojson
+from ...joints import geojson, plane_files
 from ...joints import lines as joint_lines
+from ...joints.planes import JointPlane
 from ...progress import Progress
 from ..space import file as solid_file
 from ..space.any_spec import AnySpec
@@ -20,6 +22,7 @@ from ..space.spec import SolidSpec
 from . import specimen_file
 
 if TYPE_CHECKING:
+    from ...joints.disc_network import DiscNetwork
     from ...joints.network import Network
     from ..space.specimen import SolidSpecimen
     from ..specimen import Specimen
@@ -40,6 +43,9 @@ class SpecimenSource:
         traces: Generated traces of the network.
         origin: Point of a map of joints at the specimen's origin [m]; None: no map.
         notes: Notes of the reader of a map, one line each.
+        planes: Planes of the joints of a 3D specimen.
+        discs: Fracture network of a 3D specimen; None: no network.
+        of_discs: Generated planes of this network.
     """
 
     plain: AnySpec
@@ -49,6 +55,9 @@ class SpecimenSource:
     traces: joint_lines.Lines = field(default_factory=dict)
     origin: joint_lines.Point | None = None
     notes: tuple[str, ...] = ()
+    planes: tuple[JointPlane, ...] = ()
+    discs: DiscNetwork | None = None
+    of_discs: tuple[JointPlane, ...] = ()
 
     @classmethod
     def read(
@@ -67,7 +76,7 @@ class SpecimenSource:
         Args:
             packed: Spec of a packing; None if there is a specimen file.
             file: Specimen file.
-            joints: CSV file of joints, or a map of joints as GeoJSON.
+            joints: CSV file of joints, or in 2D a map of joints as GeoJSON.
             network: TOML file of a fracture network.
             network_seed: Seed that replaces the network's seed.
             joint_name: Property of the map that names joints, see ``geojson.read``.
@@ -89,12 +98,7 @@ class SpecimenSource:
                 packed, outline = specimen_file.spec_of(content), content["outline"]
         assert packed is not None
         if isinstance(packed, SolidSpec):
-            if joints is not None or network is not None:
-                raise InputError(
-                    f"joints = {joints or network}, must not be given for a {packed.kind}; leave "
-                    "them out"
-                )
-            return cls(packed, file)
+            return cls._of_solid(packed, file, joints, network, network_seed, joint_name, joint_origin)
         lines, origin = None, None
         notes: tuple[str, ...] = ()
         if joints is not None and joints.suffix.lower() in geojson.SUFFIXES:
@@ -108,11 +112,8 @@ class SpecimenSource:
             )
         elif joints is not None:
             lines = joint_lines.read(joints)
+        _require_network(network, network_seed)
         if network is None:
-            if network_seed is not None:
-                raise InputError(
-                    f"network_seed = {network_seed}, needs a network; give its file or leave it out"
-                )
             return cls(packed, file, lines, origin=origin, notes=notes)
         from ...joints.network import Network
 
@@ -120,11 +121,41 @@ class SpecimenSource:
         traces = chosen.lines(packed.window(outline))
         return cls(packed, file, lines, chosen, traces, origin, notes)
 
+    @classmethod
+    def _of_solid(
+        cls,
+        packed: SolidSpec,
+        file: Path | None,
+        joints: Path | None,
+        network: Path | None,
+        network_seed: int | None,
+        *of_map: object,
+    ) -> SpecimenSource:
+        """Read the planes of a 3D specimen."""
+        is_map = joints is not None and joints.suffix.lower() in geojson.SUFFIXES
+        given = [one for one in (joints if is_map else None, *of_map) if one is not None]
+        if given:
+            asked = f"joints, name or origin = {given[0]}, must be left out for a {packed.kind}"
+            raise refused(asked, "joint_maps")
+        planes = () if joints is None else tuple(plane_files.read(joints))
+        _require_network(network, network_seed)
+        if network is None:
+            return cls(packed, file, planes=planes)
+        from ...joints.disc_network import Box, DiscNetwork
+
+        chosen = DiscNetwork.read(network, network_seed)
+        traces = tuple(chosen.planes(Box(*packed.corners)))
+        return cls(packed, file, planes=planes, discs=chosen, of_discs=traces)
+
     @property
     def spec(self) -> AnySpec:
         """Spec of the specimen, joints included."""
         spec = self.plain
         if isinstance(spec, SolidSpec):
+            if self.planes:
+                spec = spec.with_joints(self.planes)
+            if self.discs is not None:
+                spec = spec.with_joints(self.of_discs, self.discs.to_json())
             return spec
         if self.lines is not None:
             spec = spec.with_joints(self.lines, self.origin)
@@ -148,8 +179,12 @@ class SpecimenSource:
             from ..space.specimen import SolidSpecimen
 
             if self.file is not None:
-                return SolidSpecimen.load(self.file)
-            return SolidSpecimen.pack(self.plain, progress)
+                solid = SolidSpecimen.load(self.file)
+            else:
+                solid = SolidSpecimen.pack(self.plain, progress)
+            return solid.cut_by(
+                self.planes, None if self.discs is None else self.discs.to_json(), self.of_discs
+            )
         from ..specimen import Specimen
 
         found = (
@@ -160,3 +195,11 @@ class SpecimenSource:
         if self.network is not None:
             found = found.with_network(self.network.to_json(), None, progress)
         return found
+
+
+def _require_network(network: Path | None, seed: int | None) -> None:
+    """Reject the seed of a network without a network."""
+    if network is None and seed is not None:
+        raise InputError(
+            f"network_seed = {seed}, needs a network; give its file or leave it out"
+        )

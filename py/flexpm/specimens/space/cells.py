@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -21,11 +22,13 @@ from ..._flexpm import (
 from ...arrays import FloatArray, IntArray
 from ...errors import InputError
 from ...files import Table, read_text
+from ...joints.planes import JointPlane
 from ...progress import Progress
 from ...require import quoted
 from .. import packing
 from ..files.rules import refuse
 from ..kernel_input import call, checksum
+from .cuts import kernel_planes
 from .frame import SolidFrame
 from .spec import SolidSpec
 
@@ -77,12 +80,18 @@ def packed_spheres(where: str, spec: SolidSpec, progress: Progress | None) -> Fl
 
 
 def cells_of(
-    spheres: FloatArray, spec: SolidSpec, *, drop_hidden: bool
+    spheres: FloatArray,
+    spec: SolidSpec,
+    *,
+    drop_hidden: bool,
+    planes: Sequence[JointPlane] = (),
 ) -> tuple[FloatArray, Polyhedra]:
     """Spheres and their cells; hidden spheres, which have no cell, are dropped or refused."""
+    joints = kernel_planes(planes)
     while True:
         short = spec.short_edge * _mean_diameter(spheres)
-        cells = call(polyhedra, spheres, outline_of(spheres, spec), short, drop_hidden)
+        outline = outline_of(spheres, spec)
+        cells = call(polyhedra, spheres, outline, short, drop_hidden, [], joints)
         if len(cells.hidden_spheres) == 0:
             break
         spheres = np.ascontiguousarray(np.delete(spheres, cells.hidden_spheres, axis=0))

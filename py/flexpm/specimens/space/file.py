@@ -28,6 +28,21 @@ def _is_index(value: object) -> bool:
     return value == -1 or is_count(value)
 
 
+def is_plane(value: object) -> bool:
+    """Whether a value holds the plane of a joint."""
+    if not isinstance(value, Mapping) or not {"name", "kind", "normal", "offset"} <= value.keys():
+        return False
+    rules: dict[str, Rule] = {
+        "name": is_text,
+        "kind": is_text,
+        "normal": row_of(3),
+        "offset": lambda one: row_of(1)([one]),
+        "corners": list_of(row_of(3), 3),
+        "radius": lambda one: row_of(1)([one]),
+    }
+    return all(key in rules and rules[key](one) for key, one in value.items())
+
+
 #: First entry of the files.
 FORMAT = "flexpm solid 1"
 #: What each key of a file holds.
@@ -40,9 +55,10 @@ _KEYS: dict[str, Rule] = {
     "faces": list_of(list_of(_is_index, 5), 4),
     "pore_spheres": list_of(row_of(4), 1),
     "mineral_names": list_of(is_text, 1),
+    "planes": list_of(is_plane, 1),
 }
 #: Keys that a file need not have.
-_LATER = ("minerals", "vertices", "faces", "pore_spheres", "mineral_names")
+_LATER = ("minerals", "vertices", "faces", "pore_spheres", "mineral_names", "planes")
 #: What each field of the spec holds; sizes and numbers of a packing it checks itself.
 _SPEC: dict[str, Rule] = {
     "kind": is_text,
@@ -50,6 +66,8 @@ _SPEC: dict[str, Rule] = {
     "spheres": or_none(is_text),
     "cells": or_none(is_text),
     "minerals": or_none(is_text),
+    "joints": or_none(is_text),
+    "joint_names": or_none(list_of(is_text, 1)),
 }
 
 

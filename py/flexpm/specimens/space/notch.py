@@ -74,12 +74,17 @@ def notched(specimen: SolidSpecimen, notches: Sequence[tuple[float, float, bool]
         notches: x of each, z of its front [m], and whether it comes from above.
 
     Raises:
-        InputError: for cells that were given, which are not cut.
+        InputError: for user-supplied cells, and for a specimen with joints.
     """
     if specimen.given is not None:
         raise InputError(
             f"run: notch = {notches[0][1]:g} m, must not be given for user-supplied cells; pack "
             "spheres instead"
+        )
+    if specimen.planes:
+        raise InputError(
+            f"run: notch = {notches[0][1]:g} m, must not be given for a 3D specimen with joints; "
+            "leave out one of them"
         )
     short = specimen.spec.short_edge * specimen.mean_diameter
     asked = [(float(x), float(front), bool(above)) for x, front, above in notches]

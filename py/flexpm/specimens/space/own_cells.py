@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -11,8 +12,10 @@ import numpy as np
 from ..._flexpm import Polyhedra, Solid, WeightedCells, own_polyhedra
 from ...arrays import FloatArray, IntArray
 from ...files import Table
+from ...joints.planes import JointPlane
 from ..files.rules import refuse
 from ..kernel_input import call, checksum
+from .cuts import kernel_planes
 from .frame import SolidFrame
 from .spec import SolidSpec
 
@@ -106,12 +109,15 @@ class OwnCells:
         volumes, centroids = self.measured()
         return np.column_stack((centroids, np.cbrt(0.75 / np.pi * volumes)))
 
-    def polyhedra(self, spheres: FloatArray, spec: SolidSpec) -> Polyhedra:
+    def polyhedra(
+        self, spheres: FloatArray, spec: SolidSpec, planes: Sequence[JointPlane] = ()
+    ) -> Polyhedra:
         """The kernel's cells, short edges collapsed, without pores.
 
         Args:
             spheres: Rows of the grains, see `spheres`.
             spec: Shape, sizes and limit of edges, which refers to the mean diameter of the grains.
+            planes: Planes of joints that cut the cells before short edges are collapsed.
 
         Raises:
             InputError: for cells that are not closed, plane and convex, or do not fill the box or
@@ -121,7 +127,9 @@ class OwnCells:
         faces = (self.pairs, self.offsets, self.corners)
         every = np.vstack((spheres, self.pore_spheres))
         pores = np.arange(self.grains, self.cells, dtype=np.int32)
-        return call(own_polyhedra, self.vertices, faces, every, self.outline(spec), short, pores)
+        joints = kernel_planes(planes)
+        outline = self.outline(spec)
+        return call(own_polyhedra, self.vertices, faces, every, outline, short, pores, joints)
 
     def outline(self, spec: SolidSpec) -> Solid:
         """Return the outline of the cells; its lateral surface has the facets of the cells."""

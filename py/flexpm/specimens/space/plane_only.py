@@ -33,10 +33,7 @@ class PlaneOnly:
         """Shape of the specimen."""
         raise NotImplementedError
 
-    with_joints = _missing("with_joints", "joints")
-    joints_from_csv = _missing("joints_from_csv", "joints")
-    joints_from_geojson = _missing("joints_from_geojson", "joints")
-    with_network = _missing("with_network", "network")
+    joints_from_geojson = _missing("joints_from_geojson", "joint_maps")
     with_excavations = _missing("with_excavations", "excavation")
     excavation = _missing("excavation", "excavation")
     with_strengths = _missing("with_strengths", "strengths")

@@ -7,11 +7,13 @@ No heavy library is imported here, so that inputs are checked before YADE starts
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from ...errors import InputError
 from ...files import Table
+from ...joints.planes import JointPlane, Vector, checksum, names_of
 from ..checks import (
     DIAMETERS,
     require_diameters,
@@ -55,6 +57,10 @@ class SolidSpec:
         minerals: Checksum of given minerals of the grains; None without given minerals.
         cells: Checksum of given cells; None: cells of the spheres.
         source: File from which the grains were read, see ``grain_source``; None: none.
+        joints: Checksum of the planes of joints; None without joints.
+        joint_names: Names of the joints; None without joints.
+        networks: Fracture networks whose planes are among the joints, as tables that generate them
+            again; None without networks.
     """
 
     kind: str = "box"
@@ -70,12 +76,11 @@ class SolidSpec:
     minerals: str | None = None
     cells: str | None = None
     source: Table | None = None
+    joints: str | None = None
+    joint_names: tuple[str, ...] | None = None
+    networks: tuple[Table, ...] | None = None
 
     # what specimens of the plane may have, and solids do not
-    joints: ClassVar[None] = None
-    joint_names: ClassVar[None] = None
-    joints_with_law: ClassVar[tuple[str, ...]] = ()
-    networks: ClassVar[None] = None
     strengths: ClassVar[None] = None
 
     def __post_init__(self) -> None:
@@ -89,6 +94,9 @@ class SolidSpec:
             self._set(name, self._size(where, name))
         self._set("short_edge", require_short_edge(self.short_edge))
         self._set("source", require_source(where, self.source))
+        for name in ("joint_names", "networks"):  # lists in a file
+            if getattr(self, name) is not None:
+                self._set(name, tuple(getattr(self, name)))
         if self.spheres is None:
             room = min(self.sizes.values())
             self._set("diameters", require_diameters(where, self.diameters, room))
@@ -108,18 +116,80 @@ class SolidSpec:
     @property
     def is_packed(self) -> bool:
         """Whether a packing reproduces the specimen without a file."""
-        return self.spheres is None and self.minerals is None
+        return self.spheres is None and self.minerals is None and self.joints is None
 
     @property
     def is_laguerre(self) -> bool:
-        """Whether all cells are Laguerre cells of spheres."""
-        return self.cells is None
+        """Whether all cells are whole Laguerre cells of spheres."""
+        return self.cells is None and self.joints is None
+
+    def with_joints(
+        self, planes: Sequence[JointPlane], network: Table | None = None
+    ) -> SolidSpec:
+        """Return the same specimen with more joints.
+
+        Args:
+            planes: Planes of the joints.
+            network: Table of the network that generated them; None: they were given.
+
+        Raises:
+            InputError: for a joint with the name of a set of a network, or the reverse.
+        """
+        sets = [*self.sets]
+        names = names_of(planes)
+        if network is None:
+            label, taken, what = "joint", sets, "a set of the network"
+        else:
+            label, taken, what = "network set", [*(self.joint_names or ()), *sets], "a joint"
+            names = tuple(network["set"])
+        for name in names:
+            if name in taken:
+                raise InputError(
+                    f"{label} {name}: name = {name}, is the name of {what} of the specimen; choose "
+                    "another name"
+                )
+        every = [*(self.joint_names or ()), *names_of(planes)]
+        return replace(
+            self,
+            joints=checksum(planes, self.joints),
+            joint_names=tuple(dict.fromkeys(every)),
+            networks=self.networks if network is None else (*(self.networks or ()), network),
+        )
+
+    @property
+    def corners(self) -> tuple[Vector, Vector]:
+        """Lower and upper corner of the box around the shape [m]."""
+        sizes = self.sizes
+        half = 0.5 * sizes.get("diameter", 0.0)
+        if self.kind == "box":
+            return (0.0, 0.0, 0.0), (sizes["width"], sizes["depth"], sizes["height"])
+        if self.kind == "cylinder":
+            return (-half, -half, 0.0), (half, half, sizes["height"])
+        bottom = 0.0 if self.kind == "solid-half-disc" else -half
+        return (-half, 0.0, bottom), (half, sizes["depth"], half)
+
+    @property
+    def joints_with_law(self) -> list[str]:
+        """Names of the joints."""
+        return [*(self.joint_names or ())]
+
+    @property
+    def sets(self) -> dict[str, Table]:
+        """Table of each set of the networks, by its name."""
+        tables = self.networks or ()
+        return {name: one for network in tables for name, one in network["set"].items()}
 
     def require_alike(self, model: str) -> None:
-        """Accept any model: a 3D specimen has no joints and no strengths of single contacts."""
+        """Reject joints, for a model that makes its own contacts."""
+        if self.joints is not None:
+            raise InputError(
+                f"model = {model}, must be flexible or rigid for a specimen with joints; use one "
+                "of them"
+            )
 
     def require_discs(self, model: str) -> None:
-        """Reject given cells for a model of spheres; cells of a packing have spheres."""
+        """Reject given cells and joints for a model of spheres; cells of a packing have them."""
+        self.require_alike(model)
         if self.cells is not None:
             raise InputError(
                 f"model = {model}, must be flexible or rigid for user-supplied cells; use one of "

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,13 +17,14 @@ from ..._flexpm import FanMeshes, Polyhedra, Solid, fan_meshes
 from ...arrays import FloatArray, IntArray
 from ...errors import InputError
 from ...files import Table
-from ...joints.cuts import Cut
+from ...joints import plane_files
+from ...joints.planes import JointPlane, PlanesCut, checked, names_of, require_few, require_size
 from ...progress import Progress
 from ...renamed import with_old_names
 from ...require import require_flag
 from ..kernel_input import call, checksum, mineral_indices
 from . import cells as of_spheres
-from . import file
+from . import cuts, file
 from .own_cells import OwnCells
 from .plane_only import PlaneOnly
 from .spec import SHORT_EDGE, SIZES, SolidSpec
@@ -42,7 +43,8 @@ class SolidSpecimen(PlaneOnly):
 
     Attributes:
         spheres: Rows x, y, z, radius [m], one per grain: the sphere of a Laguerre cell. For a given
-            cell its centroid, and the radius of a ball of its volume.
+            cell, or a part of a cell that joints have cut, its centroid, and the radius of a ball
+            of its volume.
         cells: Cells of the grains; cell i belongs to sphere i.
         spec: Inputs from which the specimen was made.
         removed_spheres: Spheres that had no cell and were left out.
@@ -51,6 +53,8 @@ class SolidSpecimen(PlaneOnly):
         mineral_names: Names of the minerals of a label volume, in their order. If the material has
             a mineral of one of these names, it must have the same index.
         fit: Comparison of a label volume with the cells; None for other specimens, and not saved.
+        uncut: Spheres of the cells before joints cut them; None without joints.
+        planes: Planes of the joints, in the order in which they are cut.
 
     Example:
         >>> core = flexpm.Specimen.cylinder(0.008, 0.012)
@@ -66,6 +70,8 @@ class SolidSpecimen(PlaneOnly):
     given: OwnCells | None = None
     mineral_names: tuple[str, ...] = ()
     fit: VolumeReport | None = None
+    uncut: FloatArray | None = None
+    planes: tuple[JointPlane, ...] = ()
 
     @classmethod
     def pack(cls, spec: SolidSpec, progress: Progress | None = None) -> SolidSpecimen:
@@ -76,9 +82,9 @@ class SolidSpecimen(PlaneOnly):
         """
         where = f"Specimen.{spec.kind}"
         if not spec.is_packed:
-            what = spec.spheres or spec.minerals
+            what = spec.spheres or spec.minerals or spec.joints
             raise InputError(
-                f"{where}: spheres or minerals = {what}, were given and cannot be packed again; "
+                f"{where}: spheres, minerals or joints = {what}, were given and cannot be packed again; "
                 "load the saved specimen"
             )
         given = of_spheres.packed_spheres(where, spec, progress)
@@ -167,11 +173,12 @@ class SolidSpecimen(PlaneOnly):
         spheres = np.array(content["spheres"], dtype=float)
         of_spheres.require_made_from(spec, spheres, content["removed_spheres"])
         own = OwnCells.of_file(content)
-        if own is None:
-            spheres, cells = of_spheres.cells_of(spheres, spec, drop_hidden=False)
-        else:
-            spheres.setflags(write=False)
-            cells = own.polyhedra(spheres, spec)
+        planes = tuple(map(JointPlane.from_json, content.get("planes", ())))
+        if (None if not planes else names_of(planes)) != spec.joint_names:
+            raise InputError(
+                f"specimen = {str(path)!r}, has other joints than it names; save it again"
+            )
+        whole, spheres, cells = _cut(spheres, own, spec, planes)
         minerals = content.get("minerals")
         given = None if minerals is None else mineral_indices(minerals, len(spheres))
         if (None if given is None else checksum(given)) != spec.minerals:
@@ -179,7 +186,11 @@ class SolidSpecimen(PlaneOnly):
                 f"specimen = {str(path)!r}, has other minerals than it names; save it again"
             )
         names = tuple(content.get("mineral_names", ()))
-        return cls(spheres, cells, spec, content["removed_spheres"], given, own, names)
+        return cls(
+            *(spheres, cells, spec, content["removed_spheres"], given, own, names),
+            uncut=whole if planes else None,
+            planes=planes,
+        )
 
     def save(self, path: Path | str) -> None:
         """Write the specimen as JSON: its inputs, its spheres, and given cells.
@@ -195,9 +206,149 @@ class SolidSpecimen(PlaneOnly):
                 **({} if self.minerals is None else {"minerals": self.minerals.tolist()}),
                 **({"mineral_names": list(self.mineral_names)} if self.mineral_names else {}),
                 **({} if self.given is None else self.given.fields()),
-                "spheres": self.spheres.tolist(),
+                **({"planes": [one.to_json() for one in self.planes]} if self.planes else {}),
+                "spheres": self.whole_spheres.tolist(),
             },
         )
+
+    def with_joints(
+        self, joints: Mapping[str, object], progress: Progress | None = None
+    ) -> SolidSpecimen:
+        """Return the specimen cut by joints, whose laws the material has (D107).
+
+        All cuts are made again in their order, so a specimen that has joints may get more. A joint
+        ends within the rock between grains: a grain is cut if at least half of its section lies
+        within the disc or polygon.
+
+        Args:
+            joints: By the name of the joint a shape, or a list of shapes: a whole plane
+                ``{"point": (x, y, z), "dip": ..., "dip_direction": ...}``; a disc, which also has a
+                ``radius`` and has its ``centre`` for the point; or a convex polygon, rows x, y, z
+                [m]. Dips are in degrees, dip directions clockwise from y, seen from above.
+            progress: Not used: a cut takes milliseconds.
+
+        Returns:
+            The specimen; grains in their order, second parts of cut grains last.
+
+        Raises:
+            InputError: for a shape that is not plane, not convex or without area, a disc smaller
+                than a grain, and if no plane cuts anything.
+
+        Example:
+            >>> cut = solid.with_joints(
+            ...     {"fault": {"point": (0.004, 0.004, 0.006), "dip": 50, "dip_direction": 90}}
+            ... )
+            >>> len(cut.spheres) > len(solid.spheres)
+            True
+        """
+        return self._cut_by(checked(joints))
+
+    def joints_from_csv(
+        self, path: Path | str, progress: Progress | None = None
+    ) -> SolidSpecimen:
+        """Return the specimen cut by the joints of a CSV file, as ``--joints`` does.
+
+        Args:
+            path: A row for each polygon, columns name, x0, y0, z0, x1, ... [m]; or for each disc,
+                columns x, y, z, dip, dip_direction, radius and name; without radius: whole planes.
+            progress: Not used.
+
+        Raises:
+            InputError: if the file cannot be read or a row is no polygon, disc or plane, and as
+                ``with_joints``.
+        """
+        return self._cut_by(plane_files.read(Path(path)))
+
+    def with_network(
+        self,
+        network: Path | str | Mapping[str, object],
+        seed: int | None = None,
+        progress: Progress | None = None,
+    ) -> SolidSpecimen:
+        """Return the specimen cut by the planes of a fracture network, as ``--network`` does.
+
+        Each set of discs or planes is a joint, which needs a joint law in the material.
+
+        Args:
+            network: TOML file of the network, or its content as a table: the ``seed``, and for each
+                joint under ``set`` a table of ``kind`` ``discs`` or ``planes``.
+            seed: Seed that replaces the network's seed; equal seeds generate equal planes.
+            progress: Not used.
+
+        Returns:
+            The cut specimen.
+
+        Raises:
+            InputError: for a value out of range, a network without planes or with more than 20 000
+                planes, a set with the name of an existing joint, and as ``with_joints``.
+        """
+        from ...joints.disc_network import Box, DiscNetwork
+
+        if isinstance(network, Path | str):
+            chosen = DiscNetwork.read(network, seed)
+        else:
+            chosen = DiscNetwork.of(network, seed)
+        return self._cut_by(chosen.planes(Box(*self.spec.corners)), chosen.to_json())
+
+    def cut_by(
+        self, planes: Sequence[JointPlane], network: Table | None, of_network: Sequence[JointPlane]
+    ) -> SolidSpecimen:
+        """Return the specimen cut by given planes, and then by those of a network.
+
+        Args:
+            planes: Checked planes; none: no cut.
+            network: Table of the network; None: no network.
+            of_network: Planes that it has generated.
+
+        Raises:
+            InputError: as ``with_joints``.
+        """
+        found = self._cut_by(planes) if planes else self
+        return found if network is None else found._cut_by(of_network, network)
+
+    def _cut_by(
+        self, planes: Sequence[JointPlane], network: Table | None = None
+    ) -> SolidSpecimen:
+        """Return the specimen cut by checked planes, the table of whose network may be given."""
+        require_size(planes, self.mean_diameter)
+        every = (*self.planes, *planes)
+        require_few(every)
+        spec = self.spec.with_joints(planes, network)
+        whole, spheres, cells = _cut(self.whole_spheres, self.given, spec, every)
+        before = self._whole_minerals()
+        minerals = None if before is None else before[cells.sphere_of_cell]
+        if minerals is not None:
+            spec = dataclasses.replace(spec, minerals=checksum(minerals))
+            minerals.setflags(write=False)
+        found = dataclasses.replace(
+            self,
+            spheres=spheres,
+            cells=cells,
+            spec=spec,
+            minerals=minerals,
+            uncut=whole,
+            planes=every,
+        )
+        told = found.told_cuts
+        if all(told[one.name].cut <= 0.0 for one in planes):
+            low, high = (end(self.cells.vertices, axis=0) for end in (np.min, np.max))
+            raise InputError(
+                f"joints: planes that cut a grain = 0 of {len(planes)}, must be >= 1; the specimen "
+                f"extends from {_place(low)} to {_place(high)}: move or enlarge them"
+            )
+        return found
+
+    def _whole_minerals(self) -> IntArray | None:
+        """Mineral of each grain before joints cut them."""
+        if self.minerals is None or self.grains is None:
+            return self.minerals
+        # whole grains and first parts come first, in the order of the spheres
+        return self.minerals[: len(self.whole_spheres)]
+
+    @property
+    def whole_spheres(self) -> FloatArray:
+        """Spheres of the grains before joints cut them, rows x, y, z, radius [m]."""
+        return self.spheres if self.uncut is None else self.uncut
 
     def with_minerals(self, minerals: Sequence[int] | IntArray) -> SolidSpecimen:
         """Return the same grains with a given mineral each; see ``Specimen.with_minerals``."""
@@ -241,7 +392,6 @@ class SolidSpecimen(PlaneOnly):
         return float(np.cbrt(6.0 / math.pi * self.spec.volume))
 
     size_name = "volume"  #: what cells are measured by
-    grains = None  #: no cell is cut by joints
     side_depth = 1.0  #: factor from the size of a side to its area
 
     @property
@@ -253,6 +403,11 @@ class SolidSpecimen(PlaneOnly):
     def parents(self) -> IntArray | None:
         """Index of each grain's grain before notches have cut cells; None without notches."""
         return None
+
+    @property
+    def grains(self) -> IntArray | None:
+        """Index of the grain that each cell was a part of before joints cut it; None: no joints."""
+        return self.cells.sphere_of_cell if self.planes else None
 
     @property
     def depth(self) -> float | None:
@@ -295,25 +450,39 @@ class SolidSpecimen(PlaneOnly):
         return np.empty((0, 2, 2))
 
     def joint_lines(self) -> list[FloatArray]:
-        """Return an empty list: a 3D specimen has no joints."""
-        return []
+        """Return no lines: the joints of a 3D specimen are planes."""
+        return [np.empty((0, 2, 2)) for _ in self.spec.joint_names or ()]
 
     def joint_deviations(self) -> dict[str, float]:
-        """Return an empty table: a 3D specimen has no joints."""
-        return {}
+        """Return the largest distance between each joint's contacts and its planes, by name [m].
 
-    def network_intensities(self) -> Table:
-        """Return an empty table: a 3D specimen has no fracture network."""
-        return {}
+        The cut deviates from the plane to follow grains (D107); 0 for a plane cut.
+        """
+        if not self.planes:
+            return {}
+        return cuts.deviations(self.cells, self.planes, self.mean_diameter)
+
+    def network_intensities(self) -> dict[str, Table]:
+        """Return the P32 of each set of a network [1/m], and more measures of it.
+
+        ``target`` is the requested intensity; None if a number of discs or a spacing was requested.
+        ``generated`` is the area of the planes in the specimen over its volume, ``cut`` that of the
+        contacts on them, as seen along their normals. ``p10_x``, ``p10_y`` and ``p10_z`` are the
+        mean numbers of generated planes that lines along the axes meet [1/m]. ``planes`` counts
+        those in the specimen; ``dip``, ``dip_direction`` and ``concentration`` are of their mean
+        pole.
+        """
+        return cuts.of_sets(self.cells, self.planes, self.spec.sets, self.spec.volume)
 
     @property
-    def told_cuts(self) -> dict[str, Cut]:
-        """Empty: a 3D specimen has no joints."""
-        return {}
+    def told_cuts(self) -> dict[str, PlanesCut]:
+        """Outcome of the cuts of each joint, by its name: numbers of planes, and areas [m2]."""
+        return cuts.outcomes(self.cells, self.planes, self.spec.volume)
 
     @property
-    def edge_joints(self) -> None:
-        """None: a solid has no joints."""
+    def edge_joints(self) -> IntArray | None:
+        """Joint of each contact, an index into ``spec.joint_names``, -1: none; None: no joints."""
+        return cuts.contact_joints(self.cells, self.planes)
 
     @property
     def centres(self) -> FloatArray:
@@ -327,14 +496,14 @@ class SolidSpecimen(PlaneOnly):
 
     @property
     def mean_diameter(self) -> float:
-        """Mean diameter of the spheres [m]."""
-        return 2.0 * float(np.mean(self.spheres[:, 3]))
+        """Mean diameter of the spheres, before joints cut their cells [m]."""
+        return 2.0 * float(np.mean(self.whole_spheres[:, 3]))
 
     def outline(self) -> Solid:
         """Return the region that the cells fill, with the walls that contain their outer faces."""
         if self.given is not None:
             return self.given.outline(self.spec)
-        return of_spheres.outline_of(self.spheres, self.spec)
+        return of_spheres.outline_of(self.whole_spheres, self.spec)
 
     def meshes(self) -> FanMeshes:
         """Mesh the grains: tetrahedra between the triangles of each face and the grain's centre.
@@ -372,8 +541,34 @@ class SolidSpecimen(PlaneOnly):
             >>> found["grains"], found["contacts"], found["tetrahedra"]
             (44, 178, 1128)
         """
+        joints = {name: cut.to_json() for name, cut in self.told_cuts.items()}
         return {
             **of_spheres.figures(self.cells, self.meshes()),
             "removed_spheres": self.removed_spheres,
             "mean_diameter": self.mean_diameter,
+            **({"joints": joints} if joints else {}),
         }
+
+
+def _cut(
+    spheres: FloatArray, given: OwnCells | None, spec: SolidSpec, planes: Sequence[JointPlane]
+) -> tuple[FloatArray, FloatArray, Polyhedra]:
+    """Return the spheres of whole cells, those of all parts, and the cells cut by planes."""
+    if given is None:
+        spheres, cells = of_spheres.cells_of(spheres, spec, drop_hidden=False, planes=planes)
+    else:
+        spheres.setflags(write=False)
+        cells = given.polyhedra(spheres, spec, planes)
+    if not planes:
+        return spheres, spheres, cells
+    grains = cells.sphere_of_cell
+    parts = spheres[grains]
+    cut = np.bincount(grains)[grains] > 1
+    parts[cut, :3] = cells.centres[cut]
+    parts[cut, 3] = np.cbrt(0.75 / np.pi * cells.volumes[cut])
+    parts.setflags(write=False)
+    return spheres, parts, cells
+
+
+def _place(point: FloatArray) -> str:
+    return "({:.6g}, {:.6g}, {:.6g}) m".format(*point)

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Joints that have been cut into the cells of a 3D specimen, and measures of them (D107)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ..._flexpm import Polyhedra
+from ...arrays import FloatArray, IntArray
+from ...files import Table
+from ...joints.planes import JointPlane, PlanesCut, names_of
+
+#: Plane of a joint as the kernel takes it: normal, offset, corners.
+KernelPlane = tuple[tuple[float, float, float], float, FloatArray]
+#: Below this share of the mean diameter a distance is round-off [-].
+_STRAIGHT = 1e-9
+#: Below this share of an area an area is round-off [-].
+_NOTHING = 1e-9
+
+
+def kernel_planes(planes: Sequence[JointPlane]) -> list[KernelPlane]:
+    """Return planes as the kernel takes them."""
+    return [
+        (one.normal, one.offset, np.array(one.corners, dtype=float).reshape(-1, 3))
+        for one in planes
+    ]
+
+
+def contact_joints(cells: Polyhedra, planes: Sequence[JointPlane]) -> IntArray | None:
+    """Index of the joint of each contact among ``names_of(planes)``, -1: none; None: no joints."""
+    if not planes:
+        return None
+    names = names_of(planes)
+    numbers = np.array([*(names.index(one.name) for one in planes), -1], dtype=np.int32)
+    found: IntArray = numbers[cells.joints]
+    return found
+
+
+def outcomes(
+    cells: Polyhedra, planes: Sequence[JointPlane], volume: float
+) -> dict[str, PlanesCut]:
+    """Outcome of the cuts of each joint, by its name: areas [m2] as seen along the normals.
+
+    Args:
+        cells: The cells.
+        planes: Planes of the joints, in the order in which they were cut.
+        volume: Volume of the specimen [m3].
+    """
+    least = _NOTHING * volume ** (2.0 / 3.0)
+    found: dict[str, PlanesCut] = {}
+    for name in names_of(planes):
+        rows = cells.joint_cuts[[one.name == name for one in planes]]
+        within, cut, taken, bridged, beyond, detour, _ = map(float, rows.sum(axis=0))
+        found[name] = PlanesCut(
+            planes=len(rows),
+            outside=int(np.count_nonzero(rows[:, 0] == 0.0)),
+            idle=int(np.count_nonzero((rows[:, 0] > 0.0) & (rows[:, 1] <= least))),
+            within=within,
+            cut=cut,
+            taken=taken,
+            bridged=bridged,
+            beyond=beyond,
+            detour=detour,
+            deviation=float(rows[:, -1].max()),
+        )
+    return found
+
+
+def deviations(cells: Polyhedra, planes: Sequence[JointPlane], grain: float) -> dict[str, float]:
+    """Largest distance of the contacts of each joint from their planes [m], by name.
+
+    Args:
+        cells: The cells.
+        planes: Planes of the joints.
+        grain: Mean diameter of the grains [m].
+    """
+    off = np.zeros(len(planes))
+    ends = cells.face_offsets[: cells.contacts + 1]
+    plane_of_corner = np.repeat(cells.joints, np.diff(ends))
+    on = np.flatnonzero(plane_of_corner >= 0)
+    plane_of_corner = plane_of_corner[on]
+    normals = np.array([one.normal for one in planes])
+    offsets = np.array([one.offset for one in planes])
+    places = cells.vertices[cells.face_vertices[on]]
+    along = np.einsum("ij,ij->i", places, normals[plane_of_corner])
+    np.maximum.at(off, plane_of_corner, np.abs(along - offsets[plane_of_corner]))
+    off[off <= _STRAIGHT * grain] = 0.0
+    return {
+        name: float(max(off[k] for k, one in enumerate(planes) if one.name == name))
+        for name in names_of(planes)
+    }
+
+
+def areas(cells: Polyhedra, planes: Sequence[JointPlane]) -> FloatArray:
+    """Area of the contacts on each plane, as seen along its normal [m2]."""
+    ends = cells.face_offsets[: cells.contacts + 1]
+    face = np.repeat(np.arange(cells.contacts), np.diff(ends))
+    corners = cells.face_vertices[: ends[-1]]
+    after = np.arange(len(corners)) + 1
+    last = ends[1:] - 1
+    after[last] = ends[:-1]
+    first = cells.vertices[cells.face_vertices[ends[:-1]]][face]
+    here, there = cells.vertices[corners] - first, cells.vertices[corners[after]] - first
+    vectors = 0.5 * np.cross(here, there)
+    plane = cells.joints[face]
+    on = plane >= 0
+    normals = np.array([one.normal for one in planes])
+    seen = np.einsum("ij,ij->i", vectors[on], normals[plane[on]])
+    # a face around a grain may be seen from its other side: the sides of a joint face each other
+    sign = _senses(cells, planes)[face[on]]
+    return np.bincount(plane[on], sign * seen, len(planes))
+
+
+def of_sets(
+    cells: Polyhedra, planes: Sequence[JointPlane], sets: Mapping[str, Table], volume: float
+) -> dict[str, Table]:
+    """Measures of the sets of fracture networks; see ``SolidSpecimen.network_intensities``.
+
+    Args:
+        cells: The cells.
+        planes: Planes of all joints.
+        sets: Table of each set, by the name of its joint.
+        volume: Volume of the specimen [m3].
+    """
+    found: dict[str, Table] = {}
+    if not sets:
+        return found
+    from ...joints.poles import statistics
+
+    made, within = areas(cells, planes), cells.joint_cuts[:, 0]
+    normals = np.array([one.normal for one in planes])
+    for name, table in sets.items():
+        inside = np.array([one.name == name for one in planes]) & (within > 0.0)
+        p10 = np.sum(np.abs(normals[inside]) * within[inside, None], axis=0) / volume
+        found[name] = {
+            "target": table.get("intensity"),
+            "generated": float(np.sum(within[inside])) / volume,
+            "cut": float(np.sum(made[inside])) / volume,
+            **dict(zip(("p10_x", "p10_y", "p10_z"), p10.tolist(), strict=True)),
+            "planes": int(np.count_nonzero(inside)),
+        }
+        if inside.any():
+            found[name] |= vars(statistics(normals[inside]))
+    return found
+
+
+def _senses(cells: Polyhedra, planes: Sequence[JointPlane]) -> FloatArray:
+    """1 for contacts whose first cell is on the lower side of their plane, else -1."""
+    pairs = cells.faces[: cells.contacts, :2]
+    joints = cells.joints
+    normals = np.vstack(([one.normal for one in planes], np.zeros(3)))[joints]
+    way = cells.centres[pairs[:, 1]] - cells.centres[pairs[:, 0]]
+    return np.where(np.einsum("ij,ij->i", way, normals) < 0.0, -1.0, 1.0)
