@@ -17,7 +17,8 @@ from neper_solids import tess_text as solid_text
 from PIL import Image
 
 from flexpm import materials
-from flexpm.joints import geojson, lines
+from flexpm.joints import geojson, lines, plane_files
+from flexpm.joints.disc_network import Box, DiscNetwork
 from flexpm.joints.network import Network
 from flexpm.joints.window import Window
 from flexpm.materials.material import Material
@@ -41,6 +42,22 @@ CRS = {"type": "name", "properties": {"name": "EPSG:25832"}}
 JOINTS = (
     "x1,y1,x2,y2,name\n0,0.01,0.01,0.02,fault\n0.01,0.02,0.02,0.02,fault\n0,0,0.004,0.02,bed-1\n"
 )
+DISCS = "x,y,z,dip,dip_direction,radius,name\n0.004,0.004,0.006,50,30,0.004,bedding\n"
+DISC_NETWORK = """seed = 3
+
+[set.bedding]
+kind = "discs"
+intensity = 120.0
+radius = {law = "exponential", mean = 0.004, smallest = 0.003, largest = 0.009}
+orientation = {law = "fisher", dip = 50.0, dip_direction = 30.0, concentration = 20.0}
+
+[set.steep]
+kind = "planes"
+dip = 80.0
+dip_direction = 200.0
+spacing = 0.01
+origin = [0.0, 0.0, 0.0]
+"""
 NETWORK = """seed = 3
 
 [set.bedding]
@@ -195,6 +212,8 @@ TEXTS = {
         {"type": "FeatureCollection", "crs": CRS, "features": FEATURES}, indent=1
     ),
     "joints.csv": JOINTS,
+    "discs.csv": DISCS,
+    "discs.toml": DISC_NETWORK,
     "history.csv": HISTORY,
     "spheres.txt": SPHERES,
     "network.toml": NETWORK,
@@ -274,6 +293,8 @@ READERS: dict[str, Callable[[Path], Any]] = {
     "h.ang": lambda path: _map(path, unindexed="hole"),
     "a.geojson": geojson.read,
     "joints.csv": lines.read,
+    "discs.csv": plane_files.read,
+    "discs.toml": lambda path: DiscNetwork.read(path).planes(Box((0, 0, 0), (0.01, 0.01, 0.02))),
     "history.csv": lambda path: history_of(path, None, "N"),
     "spheres.txt": lambda path: sphere_rows(path).tolist(),
     "network.toml": _network,

@@ -23,12 +23,14 @@ from ..runs.output import refuse_other_kind
 from ..runs.run_spec import RunSpec
 from ..specimens.files.source import SpecimenSource
 from ..specimens.space.any_spec import SIZES, AnySpec
+from ..specimens.space.spec import SolidSpec
 from ..specimens.spec import SpecimenSpec
 from . import signals, terminal
 
 if TYPE_CHECKING:
     from ..results.result import Result
     from ..specimens.files.source import AnySpecimen
+    from ..specimens.space.specimen import SolidSpecimen
     from ..specimens.specimen import Specimen
 
 
@@ -228,6 +230,22 @@ def packed(kind: str, options: Table) -> SpecimenSource:
     tell_lengths({**spec.sizes, "thickness": spec.thickness}, spec.diameters)
     spec.require_memory()
     return _source(spec, None, options)
+
+
+def packed_solid(kind: str, options: Table) -> SpecimenSource:
+    """The packing of a 3D specimen that the options describe, with its joints."""
+    names = (*SIZES[kind], "diameters", "porosity", "seed")
+    spec = SolidSpec(kind, **{name: options[name] for name in names})
+    tell_lengths(spec.sizes, spec.diameters)
+    spec.require_memory()
+    return _source(spec, None, options)
+
+
+def made_solid(specimen: SpecimenSource, progress: terminal.Progress) -> SolidSpecimen:
+    """Make the specimen, which must be 3D."""
+    found = made(specimen, progress)
+    assert found.spec.kind in SOLIDS
+    return cast("SolidSpecimen", found)
 
 
 def made_plane(specimen: SpecimenSource, progress: terminal.Progress) -> Specimen:

@@ -172,9 +172,9 @@ joints_option = combined(
         "joints_file",
         type=click.Path(path_type=Path),
         metavar="FILE",
-        help="Cut a 2D specimen along the segments of a CSV file x1,y1,x2,y2,name [m], or the lines "
-        "of a map, a .geojson file [m]; a 3D specimen along polygons name,x0,y0,z0,... or discs "
-        "x,y,z,dip,dip_direction,radius,name [m, degree].",
+        help="Cut a 2D specimen along the segments of a CSV file x1,y1,x2,y2,name [m], or the "
+        "lines of a map, a .geojson file [m]; a 3D specimen along polygons name,x0,y0,z0,... or "
+        "discs x,y,z,dip,dip_direction,radius,name [m, degree].",
     ),
     click.option(
         "--name",
@@ -198,8 +198,8 @@ network_options = combined(
         "network_file",
         type=click.Path(path_type=Path),
         metavar="FILE",
-        help="Cut the specimen along the traces, in 3D the discs or planes, of a fracture network, a "
-        "TOML file.",
+        help="Cut the specimen along the traces, in 3D the discs or planes, of a fracture network, "
+        "a TOML file.",
     ),
     click.option(
         "--network-seed",

@@ -13,7 +13,7 @@ from ..dimensions import SOLIDS
 from ..files import Table, json_text, write_text
 from ..kinds.registry import ELASTIC, KINDS, names
 from ..report import tables
-from ..specimens.space.spec import SIZES, SolidSpec
+from ..specimens.space.spec import SIZES
 from . import inputs, terminal
 from . import options as cli_options
 from .options import combined, length_option
@@ -88,10 +88,15 @@ def _command(kind: str, sizes: cli_options.Decorator, about: str) -> click.Comma
     @click.command(kind, help=about)
     @sizes
     @cli_options.grain_options
+    @cli_options.cut_options
     @cli_options.out_option
     @cli_options.quiet_option
     def made(out: Path, quiet: bool, **options: Any) -> None:
-        _make(SolidSpec(kind, **options), out, quiet)
+        folder = inputs.locked_folder(out)
+        source = inputs.packed_solid(kind, options)
+        with terminal.Progress(quiet) as progress:
+            specimen = inputs.made_solid(source, progress)
+        describe(specimen, folder)
 
     return made
 
@@ -108,18 +113,6 @@ solid_half_disc = _command(
     _disc_options(SIZES["solid-half-disc"]),
     "Make the upper half of a disc of polyhedral grains about the y axis.",
 )
-
-
-def _make(spec: SolidSpec, out: Path, quiet: bool) -> None:
-    folder = inputs.locked_folder(out)
-    inputs.tell_lengths(spec.sizes, spec.diameters)
-    spec.require_memory()
-    with terminal.Progress(quiet) as progress:
-        inputs.load_yade()
-        from ..specimens.space.specimen import SolidSpecimen
-
-        made = SolidSpecimen.pack(spec, progress)
-    describe(made, folder)
 
 
 def describe(made: SolidSpecimen, folder: Path, source: Table | None = None) -> None:

@@ -19,7 +19,15 @@ from scipy import stats
 from ..arrays import FloatArray
 from ..errors import InputError
 from ..files import Table, load_toml
-from ..require import LENGTH, Bounds, quoted, require_known, require_number, require_table, require_whole
+from ..require import (
+    LENGTH,
+    Bounds,
+    quoted,
+    require_known,
+    require_number,
+    require_table,
+    require_whole,
+)
 from .disc_radii import RADII, Radii
 from .laws import law_of, table_of
 from .lines import check_name
@@ -111,7 +119,8 @@ class Discs(PlaneSet):
         meets = np.all((centres + reach >= low) & (centres - reach <= high), axis=1)
         rows = zip(centres[meets], poles[meets], radii[meets], strict=True)
         return [
-            disc(name, _vector(centre), _vector(pole), float(radius)) for centre, pole, radius in rows
+            disc(name, _vector(centre), _vector(pole), float(radius))
+            for centre, pole, radius in rows
         ]
 
     def to_json(self) -> Table:
@@ -263,7 +272,7 @@ def _set_of(where: str, given: object) -> PlaneSet:
             f"{where} kind = {quoted(kind)}, must be discs or planes for a 3D specimen; choose one "
             "of them"
         )
-    keys = ("dip", "dip_direction", "spacing", "origin")
+    keys: tuple[str, ...] = ("dip", "dip_direction", "spacing", "origin")
     needed = keys
     if kind == "discs":
         amount = [key for key in ("intensity", "number") if key in table]

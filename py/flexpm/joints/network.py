@@ -145,7 +145,9 @@ class Network:
                 f"{one.length.longest:.4g} m, must be <= {MOST_TRACES} in all sets; use a lower "
                 "intensity, longer traces or a lower upper cut-off"
             )
-        return {name: one.draw(window, generator_of(self.seed, name)) for name, one in self.sets.items()}
+        return {
+            name: one.draw(window, generator_of(self.seed, name)) for name, one in self.sets.items()
+        }
 
     def lines(self, window: Window) -> Lines:
         """Generate the traces and clip them; a set without a trace in the window has no lines.

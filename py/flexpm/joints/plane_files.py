@@ -103,8 +103,8 @@ def _number(where: str, column: str, cell: str) -> float:
         value = math.nan
     if not abs(value) <= FARTHEST:
         raise InputError(
-            f"{where}: {column} = {quoted(cell)}, must be a number of at most {FARTHEST:g}; correct "
-            "it"
+            f"{where}: {column} = {quoted(cell)}, must be a number of at most {FARTHEST:g}; "
+            "correct it"
         )
     return value
 

@@ -8,6 +8,7 @@ Nothing heavy is loaded.
 from __future__ import annotations
 
 import hashlib
+import itertools
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -141,7 +142,9 @@ def disc(name: str, centre: Vector, normal: Vector, radius: float) -> JointPlane
     for k in range(SIDES):
         angle = 2.0 * math.pi * k / SIDES
         a, b = reach * math.cos(angle), reach * math.sin(angle)
-        corners.append(_vector(c + a * s + b * u for c, s, u in zip(centre, strike, up)))
+        corners.append(
+            _vector(c + a * s + b * u for c, s, u in zip(centre, strike, up, strict=False))
+        )
     return JointPlane(name, "disc", normal, _dot(normal, centre), tuple(corners), radius)
 
 
@@ -159,8 +162,7 @@ def polygon(where: str, name: str, corners: Sequence[Vector]) -> JointPlane:
     arms = [_minus(corner, first) for corner in corners]
     size = max(math.hypot(*arm) for arm in arms)
     twice = _vector(
-        math.fsum(_cross(a, b)[axis] for a, b in zip(arms[1:], arms[2:], strict=False))
-        for axis in range(3)
+        math.fsum(_cross(a, b)[axis] for a, b in itertools.pairwise(arms[1:])) for axis in range(3)
     )
     area = 0.5 * math.hypot(*twice)
     if not 2.0 * area > _OFF * size * size:
@@ -319,8 +321,7 @@ def _is_polygon(value: Any) -> bool:
 def _is_point(value: Any) -> bool:
     numbers = isinstance(value, list | tuple) and len(value) == 3
     return numbers and all(
-        isinstance(x, int | float) and not isinstance(x, bool) and abs(x) <= FARTHEST
-        for x in value
+        isinstance(x, int | float) and not isinstance(x, bool) and abs(x) <= FARTHEST for x in value
     )
 
 

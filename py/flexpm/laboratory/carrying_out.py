@@ -35,6 +35,7 @@ from ..runs.output import RESULT, ROSE, Output
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Foresee, Runner
 from ..runs.written import about, write_files, write_so_far
+from ..specimens.specimen import Specimen
 from . import halving
 from .outcome import outcome
 from .part_tests import part_rig, prepared
@@ -126,7 +127,7 @@ def _tested(
     elif folder is not None:
         write_vtu(folder / "specimen.vtu", built.snapshot(), about(spec.to_json()))
         give_back_memory()
-        if specimen.spec.networks and not spec.is_solid:
+        if isinstance(specimen, Specimen) and specimen.spec.networks:
             from ..report.rose import rose_picture
 
             rose_picture(folder / ROSE, specimen)

@@ -80,9 +80,7 @@ def _minerals(specimen: SolidSpecimen, chosen: Material, model: str) -> IntArray
     return mineral_map.minerals_of(specimen, chosen)
 
 
-def _elastic_of_state(
-    specimen: SolidSpecimen, chosen: Material, model: str
-) -> dict[str, float]:
+def _elastic_of_state(specimen: SolidSpecimen, chosen: Material, model: str) -> dict[str, float]:
     try:
         modulus, ratio = solver_of(specimen, chosen, model).elasticConstants()
     except RuntimeError as error:

@@ -522,8 +522,9 @@ def _of_planes(name: str, cut: Table) -> list[str]:
         reason = "within grains"
     missing = max(cut["within"] - cut["cut"], 0.0)
     return [
-        f"joint {name}: {cut['idle']} of {cut['planes']} planes cut nothing, {1e6 * missing:.3g} of "
-        f"{1e6 * cut['within']:.3g} mm2 in the specimen are not cut; most of it lies {reason}"
+        f"joint {name}: {cut['idle']} of {cut['planes']} planes cut nothing, "
+        f"{1e6 * missing:.3g} of {1e6 * cut['within']:.3g} mm2 in the specimen are not cut; most "
+        f"of it lies {reason}"
     ]
 
 

@@ -73,8 +73,8 @@ TEST_CASE("Faces of a plane add up to its section where no piece is too small", 
     for (const Solid& solid : { block, core }) {
         for (int k = 0; k < 8; ++k) {
             CellComplex complex = cells_in(solid, 200, 1 + k);
-            const JointPlane plane
-                = plane_through(random_place(random, solid), random_direction(random));
+            const JointPlane plane =
+                plane_through(random_place(random, solid), random_direction(random));
             PlaneCut cut { plane.normal, plane.offset };
             cut.wall = static_cast<int>(solid.walls.size());
             CellCutter cutter(complex, { zero_edge * side, 0.0, 0.0, 1.0 });
@@ -93,8 +93,8 @@ TEST_CASE("A plane goes round pieces that are too small", "[space]")
     Random random(8);
     for (int k = 0; k < 6; ++k) {
         const Solid& solid = k % 2 == 0 ? block : core;
-        const JointPlane plane
-            = plane_through(0.5 * (solid.low + solid.high), random_direction(random));
+        const JointPlane plane =
+            plane_through(0.5 * (solid.low + solid.high), random_direction(random));
         const Polyhedra whole = jointed(solid, 200, 20 + k, { plane }, 0.0);
         const double least = *std::min_element(whole.volumes.begin(), whole.volumes.end());
         CHECK(least > 0.0199 * solid.volume / 200);
@@ -207,6 +207,5 @@ TEST_CASE("Joints that are no planes are refused", "[space]")
     for (const auto& [x, y] : { std::pair(1.0, 1.0), { 1.0, 2.0 }, { 1.0, 4.0 }, { 1.0, 4.0 },
              { 4.0, 4.0 }, { 4.0, 1.0 } })
         square.corners.push_back({ x * side, y * side, 3.0 * side });
-    CHECK(jointed(block, 200, 1, { square }).joint_cuts.at(0).within
-        == Approx(9.0 * side * side));
+    CHECK(jointed(block, 200, 1, { square }).joint_cuts.at(0).within == Approx(9.0 * side * side));
 }

@@ -17,6 +17,7 @@ WORDS = st.sampled_from(
     constant waiting box cylinder solid-disc solid-half-disc p s
     axial lateral displacement cmod gif augig-table7 augig-table2-brittle
     nofile.toml material.toml phases.toml network.toml joints.csv a.geojson grains.json solid.json
+    discs.csv discs.toml
     grey.png volume.npy uint8 grains phases exact um""".split()
 )
 TEXTS = st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters="\0"), max_size=6)
@@ -50,6 +51,11 @@ OPTIONS = st.one_of(
 #: Images and maps that are there.
 IMAGES = ("colours.png", "grey.png", "palette.png", "lzw.tif", "labels.npy", "a.tesr", "b.tesr")
 SETS_OPEN = ("--set", "joint.bedding.open=true", "--set", "joint.steep.open=true")
+#: Files of a run in 3D.
+READ_3D = (
+    ("--joints", "discs.csv", "--set", "joint.bedding.open=true"),
+    ("--network", "discs.toml", *SETS_OPEN),
+)
 #: Files of a run in 2D.
 READ_2D = (
     ("--specimen", "grains.json"),
@@ -82,6 +88,8 @@ COMMANDS = st.sampled_from(
         ("specimen", "volume", "volume.npy", "--voxel", "1e-3"),
         ("specimen", "table", "grains.csv"),
         *(("run", test, *file) for test in ("uniaxial", "bending") for file in READ_2D),
+        *(("run", "uniaxial", "--shape", "box", *file) for file in READ_3D),
+        *(("specimen", "box", *file[:2]) for file in READ_3D),
         *(("run", test, "--specimen", "solid.json") for test in ("uniaxial", "triaxial", "shear")),
         *((name, "nofile.toml") for name in ("study", "calibrate", "scorecard", "rerun", "report")),
         *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from refusals import refusal
 
@@ -168,7 +168,9 @@ def test_a_network_has_its_intensity_in_the_mean():
     low, high = np.zeros(3), np.array([0.02, 0.02, 0.03])
     box, found = Box(tuple(low), tuple(high)), []
     for seed in range(20):
-        network = DiscNetwork.of(discs(radius={"law": "uniform", "smallest": 3e-3, "largest": 6e-3}))
+        network = DiscNetwork.of(
+            discs(radius={"law": "uniform", "smallest": 3e-3, "largest": 6e-3})
+        )
         made = DiscNetwork.of(network, seed).planes(box)
         found.append(sum(area_in(one, low, high) for one in made) / np.prod(high - low))
     error = np.std(found) / math.sqrt(len(found))
@@ -286,7 +288,7 @@ def test_sets_and_joints_have_names_of_their_own(box):
     refusal("is the name of a joint", cut.with_network, discs())
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=25, deadline=None)
 @given(
     st.lists(
         st.tuples(
@@ -305,7 +307,9 @@ def test_any_planes_and_discs_leave_sound_cells(box, drawn):
         at = tuple(share * side for share, side in zip(place, SIDES, strict=True))
         angles = {"dip": dip, "dip_direction": direction}
         shapes.append(
-            {"point": at, **angles} if radius is None else {"centre": at, "radius": radius, **angles}
+            {"point": at, **angles}
+            if radius is None
+            else {"centre": at, "radius": radius, **angles}
         )
     try:
         cut = box.with_joints({"f": shapes})

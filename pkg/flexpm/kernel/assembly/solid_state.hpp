@@ -115,7 +115,7 @@ struct FaceContacts {
     std::vector<LawParameters> laws;
     std::vector<GrainPair> pairs;
     std::vector<int> law;    ///< index into `laws`
-    std::vector<int> joint;  ///< joint on which the contact lies, -1: none
+    std::vector<int> joint;  ///< of each contact, -1: none; empty of a solid without joints
     std::vector<int> slot;   ///< block * lanes + lane of each contact
     std::vector<FaceGroup> groups;
     std::vector<int> block_group;   ///< group of each block

@@ -273,7 +273,8 @@ ScaleInputs scale_inputs(const SolidState& s, Sense sense, double thickness, dou
         in.mass += m > 0.0 ? 1.0 / m : 0.0;
     in.thickness = thickness;
     in.dt = dt;
-    take_bonds(in, s, sense, [&](int c) { return s.contacts.joint[c] < 0; });
+    const std::vector<int>& joint = s.contacts.joint;
+    take_bonds(in, s, sense, [&](int c) { return joint.empty() || joint[c] < 0; });
     return in;
 }
 

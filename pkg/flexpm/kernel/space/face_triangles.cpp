@@ -68,8 +68,8 @@ private:
         for (std::size_t k = from + 1; k < to; ++k) {
             const double own = triangle_quality(
                 vertices[corners[from]], vertices[corners[k]], vertices[corners[to]]);
-            const double worst
-                = std::min({ own, quality[from * size + k], quality[k * size + to] });
+            const double worst =
+                std::min({ own, quality[from * size + k], quality[k * size + to] });
             if (worst <= best) continue;
             best = worst;
             middle[from * size + to] = k;

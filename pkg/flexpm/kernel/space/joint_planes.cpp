@@ -88,8 +88,8 @@ double area_within(const JointPlane& joint, const Solid& solid)
     std::vector<HalfSpace> walls;
     for (const Wall& wall : solid.walls)
         walls.push_back({ wall.normal, wall.offset });
-    return area_of_polygon(part_within(
-        joint.corners.empty() ? square_across(joint, solid) : joint.corners, walls));
+    return area_of_polygon(
+        part_within(joint.corners.empty() ? square_across(joint, solid) : joint.corners, walls));
 }
 
 CutCells cut_cells(CellComplex& complex, const Solid& solid, double diameter,

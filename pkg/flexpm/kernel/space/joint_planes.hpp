@@ -11,8 +11,8 @@ namespace flexpm {
 
 /// Plane of a joint, or a convex polygon in it.
 struct JointPlane {
-    Vector normal;  ///< of length 1
-    double offset = 0.0;  ///< [m]
+    Vector normal;                     ///< of length 1
+    double offset = 0.0;               ///< [m]
     std::vector<Vector> corners = {};  ///< in any sense of rotation; none: the whole plane [m]
 };
 

@@ -276,8 +276,8 @@ void require_sizes(const std::vector<Sphere>& spheres, const Solid& solid)
 }
 
 /// Centres of whole cells, and centroids of pieces.
-std::vector<Vector> centres_of(const CellComplex& complex, const std::vector<Sphere>& spheres,
-    const std::vector<int>& sources)
+std::vector<Vector> centres_of(
+    const CellComplex& complex, const std::vector<Sphere>& spheres, const std::vector<int>& sources)
 {
     std::vector<Vector> centres;
     for (const Sphere& sphere : spheres)

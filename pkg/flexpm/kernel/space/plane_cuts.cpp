@@ -184,8 +184,8 @@ void CellCutter::find_near()
         const Vector middle = 0.5 * (box.low + box.high), size = box.high - box.low;
         const double off = std::fabs(dot(plane_->normal, middle) - plane_->offset);
         if (off > reach(size, plane_->normal) + limits_.close) continue;
-        const bool meets = std::all_of(
-            plane_->region.begin(), plane_->region.end(), [&](const HalfSpace& half) {
+        const bool meets =
+            std::all_of(plane_->region.begin(), plane_->region.end(), [&](const HalfSpace& half) {
                 return dot(half.normal, middle) - half.offset
                     <= reach(size, half.normal) + longest_;
             });
@@ -213,8 +213,8 @@ Vector CellCutter::place_of(EdgeKey edge) const
 
 int CellCutter::crossing(EdgeKey edge)
 {
-    const auto [at, added]
-        = crossings_.try_emplace(edge, static_cast<int>(complex_.vertices.size()));
+    const auto [at, added] =
+        crossings_.try_emplace(edge, static_cast<int>(complex_.vertices.size()));
     if (!added) return at->second;
     const int a = static_cast<int>(edge >> 32), b = static_cast<int>(edge & 0xffffffffU);
     for (int end : { a, b })  // such an end and the new vertex become one
@@ -279,8 +279,8 @@ bool CellCutter::is_sharp(const Near& near) const
 {
     for (int f : faces_of_[near.cell]) {
         const auto& corners = complex_.faces[f].corners;
-        const auto rights
-            = std::count_if(corners.begin(), corners.end(), [&](int v) { return is_right(v); });
+        const auto rights =
+            std::count_if(corners.begin(), corners.end(), [&](int v) { return is_right(v); });
         if (rights == 0 || rights == static_cast<std::ptrdiff_t>(corners.size())) continue;
         const Vector area = area_vector(complex_, corners);
         if (std::fabs(dot(area, plane_->normal)) > limits_.largest_cosine * norm(area)) return true;
@@ -357,8 +357,8 @@ void CellCutter::split_faces()
         if (!is_cut(face.first) && !is_cut(face.second)) continue;
         const auto rights = std::count_if(
             face.corners.begin(), face.corners.end(), [&](int v) { return is_right(v); });
-        const bool whole
-            = rights == 0 || rights == static_cast<std::ptrdiff_t>(face.corners.size());
+        const bool whole =
+            rights == 0 || rights == static_cast<std::ptrdiff_t>(face.corners.size());
         CellFace other { piece_of(face.first), piece_of(face.second), face.wall, {}, face.joint };
         if (whole) {
             if (rights > 0) {
@@ -459,8 +459,8 @@ void CellCutter::join_sides(CutAreas& areas)
     }
     for (std::size_t k = 0; k < opened.size(); ++k) {
         const int cell = opened[k].first, number = static_cast<int>(complex_.faces.size());
-        const bool is_far
-            = cell < static_cast<int>(near_of_cell_.size()) && near_of_cell_[cell] < 0;
+        const bool is_far =
+            cell < static_cast<int>(near_of_cell_.size()) && near_of_cell_[cell] < 0;
         if (is_far)
             std::replace(faces_of_[cell].begin(), faces_of_[cell].end(), replaced[k], number);
         touched_.push_back(number);

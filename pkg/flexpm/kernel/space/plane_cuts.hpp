@@ -22,23 +22,23 @@ struct PlaneCut {
     Vector normal;  ///< of length 1, from the left to the right side
     double offset = 0.0;
     std::vector<HalfSpace> region = {};  ///< which all hold in the region; empty: the whole plane
-    int wall = 0;   ///< number of the plane among the walls of vertices
-    int joint = 0;  ///< number that the faces between both sides have
+    int wall = 0;                        ///< number of the plane among the walls of vertices
+    int joint = 0;                       ///< number that the faces between both sides have
     bool open = false;  ///< both sides get flanks on `wall` instead of common faces: a notch
 };
 
 /// Least pieces that a cut leaves.
 struct CutLimits {
-    double close = 0.0;  ///< vertices no further to the right than this count as left
-    double least_depth = 0.0;   ///< of a piece, from the plane
-    double least_volume = 0.0;  ///< of a piece
+    double close = 0.0;           ///< vertices no further to the right than this count as left
+    double least_depth = 0.0;     ///< of a piece, from the plane
+    double least_volume = 0.0;    ///< of a piece
     double largest_cosine = 1.0;  ///< of the angle between a joint and a face of the cell
 };
 
 /// Areas of a cut, as seen along its normal.
 struct CutAreas {
-    double cut = 0.0;    ///< faces that have become faces of the joint
-    double taken = 0.0;  ///< faces that are of an earlier joint
+    double cut = 0.0;      ///< faces that have become faces of the joint
+    double taken = 0.0;    ///< faces that are of an earlier joint
     double bridged = 0.0;  ///< of the region, within cells that stay whole across it
     double beyond = 0.0;   ///< sections of cut cells outside of the region
     double detour = 0.0;   ///< true area of the joint's faces off the plane
@@ -68,9 +68,9 @@ private:
     /// A cell near the plane.
     struct Near {
         int cell = -1;
-        int right = -1;       ///< number of its right piece, -1: it is not cut
-        int side = 0;         ///< -1 left, 1 right, 0: it bridges the plane
-        bool passed = false;  ///< at least half of its section is in the region
+        int right = -1;                     ///< number of its right piece, -1: it is not cut
+        int side = 0;                       ///< -1 left, 1 right, 0: it bridges the plane
+        bool passed = false;                ///< at least half of its section is in the region
         std::vector<EdgeKey> section = {};  ///< edges that the plane crosses, around the section
     };
     struct Box {
@@ -79,10 +79,10 @@ private:
 
     CellComplex& complex_;
     CutLimits limits_;
-    int given_;                             ///< cells at the beginning
+    int given_;                               ///< cells at the beginning
     std::vector<std::vector<int>> faces_of_;  ///< per cell
-    std::vector<Box> boxes_;                ///< per cell
-    double longest_ = 0.0;                  ///< diagonal of a box
+    std::vector<Box> boxes_;                  ///< per cell
+    double longest_ = 0.0;                    ///< diagonal of a box
     std::vector<int> sources_;
 
     // of the present plane

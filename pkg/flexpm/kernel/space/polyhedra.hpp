@@ -25,10 +25,10 @@ struct Polyhedra {
     std::vector<PolyhedronFace> faces;
     std::vector<int> face_offsets;  ///< of each face in `face_vertices`, and the end
     std::vector<int> face_vertices;
-    std::vector<int> joints;          ///< per contact, the joint that it lies on, or -1
+    std::vector<int> joints;               ///< per contact, the joint that it lies on, or -1
     std::vector<JointOutcome> joint_cuts;  ///< outcome of each joint
-    std::vector<int> sphere_of_cell;  ///< pieces of a cell that has been cut have one
-    std::vector<int> hidden_spheres;  ///< without a cell
+    std::vector<int> sphere_of_cell;       ///< pieces of a cell that has been cut have one
+    std::vector<int> hidden_spheres;       ///< without a cell
     std::vector<int>
         moved_centres;  ///< cells whose centre is their centroid: the sphere's is not well inside
     int contacts = 0;   ///< faces between cells

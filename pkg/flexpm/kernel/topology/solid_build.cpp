@@ -110,8 +110,8 @@ void check_input(const Polyhedra& cells, const SolidInput& input)
     }
     for (int joint : input.joint) {
         if (joint < -1 || joint >= static_cast<int>(input.joints.size()))
-            refuse("make_solid: joint of a contact", joint, "",
-                "must be the index of a joint, or -1");
+            refuse(
+                "make_solid: joint of a contact", joint, "", "must be the index of a joint, or -1");
     }
 }
 
@@ -348,7 +348,7 @@ void crack_from_start(Building& b)
 {
     FaceContacts& c = b.state.contacts;
     for (int contact = 0; contact < c.count; ++contact) {
-        const int joint = c.joint[contact];
+        const int joint = joint_of(b.input, contact);
         if (joint < 0 || !is_cracked(b.input.joints[joint])) continue;
         for (int p = 0; p < c.points_of(contact); ++p)
             c.set_state(contact, p, FaceRow::shear_damage, 1.0);
@@ -363,6 +363,7 @@ void add_contacts(Building& b)
     for (const ContactMaterial& m : b.input.joints)
         c.laws.push_back(joint_law(m));
     c.count = b.cells.contacts;
+    c.joint = b.input.joint;
     c.slot.resize(c.count);
     c.block_nodes = c.block_points = c.block_shares = { 0 };
     const CurveOrder curve(b.solid);
@@ -371,7 +372,6 @@ void add_contacts(Building& b)
     for (int f = 0; f < c.count; ++f) {
         const PolyhedronFace& on = b.cells.faces[f];
         c.pairs.push_back({ on.cell_a, on.cell_b });
-        c.joint.push_back(joint_of(b.input, f));
         c.law.push_back(law_of_face(b, on, f));
         faces.push_back(read_face(b, f));
         keys.push_back(

@@ -99,7 +99,8 @@ namespace {
 	{
 		std::vector<double> values;
 		for (const auto& cut : cells.joint_cuts)
-			for (double value : { cut.within, cut.areas.cut, cut.areas.taken, cut.areas.bridged, cut.areas.beyond, cut.areas.detour, cut.areas.bend })
+			for (double value :
+			     { cut.within, cut.areas.cut, cut.areas.taken, cut.areas.bridged, cut.areas.beyond, cut.areas.detour, cut.areas.bend })
 				values.push_back(value);
 		return copied(values, 7, Access::readOnly);
 	}
@@ -114,9 +115,10 @@ namespace {
 	}
 
 	/// Given cells: vertices, rows first, second of faces, their offsets among the corners, and spheres.
-	std::shared_ptr<Polyhedra> ownPolyhedra(py::object vertices, py::tuple faces, py::object rows, const Solid& solid, double shortEdge, py::object pores, py::list joints)
+	std::shared_ptr<Polyhedra>
+	ownPolyhedra(py::object vertices, py::tuple faces, py::object rows, const Solid& solid, double shortEdge, py::object pores, py::list joints)
 	{
-		const InputArray<int>    pairs(faces[0], 2, "pairs"), offsets(faces[1], 1, "offsets"), corners(faces[2], 1, "corners");
+		const InputArray<int> pairs(faces[0], 2, "pairs"), offsets(faces[1], 1, "offsets"), corners(faces[2], 1, "corners");
 		if (pairs.size(1) != 2 || offsets.size(0) != pairs.size(0) + 1)
 			throw std::invalid_argument("pairs, offsets = of other sizes, must be rows of 2, and one offset more than pairs");
 		flexpm::OwnCells own;
@@ -194,7 +196,8 @@ namespace {
 		        .add_property(
 		                "joint_cuts",
 		                jointCuts,
-		                "Areas of each joint plane, as seen along its normal [m^2]: within the solid, cut, taken by earlier planes, bridged by whole cells, and "
+		                "Areas of each joint plane, as seen along its normal [m^2]: within the solid, cut, taken by earlier planes, bridged by whole "
+		                "cells, and "
 		                "cut beyond the polygon; the true area of faces off the plane [m^2]; the largest distance of their corners from it [m].")
 		        .add_property("sphere_of_cell", integers<P, int, &P::sphere_of_cell>, "Sphere of each cell.")
 		        .add_property("hidden_spheres", integers<P, int, &P::hidden_spheres>, "Spheres without a cell.")
@@ -251,7 +254,8 @@ void register_space_bindings()
 	         py::arg("notches") = py::list(),
 	         py::arg("joints")  = py::list()),
 	        "Return the Laguerre cells of spheres, rows x, y, z, radius. notches: x and z of the front of each notch, and whether it comes from above; the "
-	        "flanks of notch i have the wall index walls + i. joints: normal, offset and corners (n, 3) of each joint plane, no corners: the whole plane; they "
+	        "flanks of notch i have the wall index walls + i. joints: normal, offset and corners (n, 3) of each joint plane, no corners: the whole plane; "
+	        "they "
 	        "are cut in their order.");
 	py::def("area_within",
 	        areaWithin,
@@ -259,7 +263,13 @@ void register_space_bindings()
 	        "Return the area of a joint plane inside a solid [m^2].");
 	py::def("own_polyhedra",
 	        ownPolyhedra,
-	        (py::arg("vertices"), py::arg("faces"), py::arg("spheres"), py::arg("solid"), py::arg("short_edge"), py::arg("pores"), py::arg("joints") = py::list()),
+	        (py::arg("vertices"),
+	         py::arg("faces"),
+	         py::arg("spheres"),
+	         py::arg("solid"),
+	         py::arg("short_edge"),
+	         py::arg("pores"),
+	         py::arg("joints") = py::list()),
 	        "Return user-supplied convex cells. faces: pairs of cells, offsets of the faces in the list of corners, and this list; spheres: rows x, y, z, "
 	        "radius of the cells; pores: cells that are taken out after short edges are collapsed, in order; joints: as for polyhedra.");
 	py::def("fan_meshes", fanMeshes, py::arg("cells"), "Tetrahedra of all cells.");

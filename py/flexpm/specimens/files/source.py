@@ -98,7 +98,9 @@ class SpecimenSource:
                 packed, outline = specimen_file.spec_of(content), content["outline"]
         assert packed is not None
         if isinstance(packed, SolidSpec):
-            return cls._of_solid(packed, file, joints, network, network_seed, joint_name, joint_origin)
+            return cls._of_solid(
+                packed, file, joints, network, network_seed, joint_name, joint_origin
+            )
         lines, origin = None, None
         notes: tuple[str, ...] = ()
         if joints is not None and joints.suffix.lower() in geojson.SUFFIXES:
@@ -200,6 +202,4 @@ class SpecimenSource:
 def _require_network(network: Path | None, seed: int | None) -> None:
     """Reject the seed of a network without a network."""
     if network is None and seed is not None:
-        raise InputError(
-            f"network_seed = {seed}, needs a network; give its file or leave it out"
-        )
+        raise InputError(f"network_seed = {seed}, needs a network; give its file or leave it out")

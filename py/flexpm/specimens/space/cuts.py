@@ -38,9 +38,7 @@ def contact_joints(cells: Polyhedra, planes: Sequence[JointPlane]) -> IntArray |
     return found
 
 
-def outcomes(
-    cells: Polyhedra, planes: Sequence[JointPlane], volume: float
-) -> dict[str, PlanesCut]:
+def outcomes(cells: Polyhedra, planes: Sequence[JointPlane], volume: float) -> dict[str, PlanesCut]:
     """Outcome of the cuts of each joint, by its name: areas [m2] as seen along the normals.
 
     Args:
@@ -110,7 +108,9 @@ def areas(cells: Polyhedra, planes: Sequence[JointPlane]) -> FloatArray:
     seen = np.einsum("ij,ij->i", vectors[on], normals[plane[on]])
     # a face around a grain may be seen from its other side: the sides of a joint face each other
     sign = _senses(cells, planes)[face[on]]
-    return np.bincount(plane[on], sign * seen, len(planes))
+    found = np.zeros(len(planes))
+    np.add.at(found, plane[on], sign * seen)
+    return found
 
 
 def of_sets(

@@ -123,9 +123,7 @@ class SolidSpec:
         """Whether all cells are whole Laguerre cells of spheres."""
         return self.cells is None and self.joints is None
 
-    def with_joints(
-        self, planes: Sequence[JointPlane], network: Table | None = None
-    ) -> SolidSpec:
+    def with_joints(self, planes: Sequence[JointPlane], network: Table | None = None) -> SolidSpec:
         """Return the same specimen with more joints.
 
         Args:

@@ -84,8 +84,8 @@ class SolidSpecimen(PlaneOnly):
         if not spec.is_packed:
             what = spec.spheres or spec.minerals or spec.joints
             raise InputError(
-                f"{where}: spheres, minerals or joints = {what}, were given and cannot be packed again; "
-                "load the saved specimen"
+                f"{where}: spheres, minerals or joints = {what}, were given and cannot be packed "
+                "again; load the saved specimen"
             )
         given = of_spheres.packed_spheres(where, spec, progress)
         spheres, cells = of_spheres.cells_of(given, spec, drop_hidden=True)
@@ -243,9 +243,7 @@ class SolidSpecimen(PlaneOnly):
         """
         return self._cut_by(checked(joints))
 
-    def joints_from_csv(
-        self, path: Path | str, progress: Progress | None = None
-    ) -> SolidSpecimen:
+    def joints_from_csv(self, path: Path | str, progress: Progress | None = None) -> SolidSpecimen:
         """Return the specimen cut by the joints of a CSV file, as ``--joints`` does.
 
         Args:
@@ -306,9 +304,7 @@ class SolidSpecimen(PlaneOnly):
         found = self._cut_by(planes) if planes else self
         return found if network is None else found._cut_by(of_network, network)
 
-    def _cut_by(
-        self, planes: Sequence[JointPlane], network: Table | None = None
-    ) -> SolidSpecimen:
+    def _cut_by(self, planes: Sequence[JointPlane], network: Table | None = None) -> SolidSpecimen:
         """Return the specimen cut by checked planes, the table of whose network may be given."""
         require_size(planes, self.mean_diameter)
         every = (*self.planes, *planes)
@@ -542,11 +538,13 @@ class SolidSpecimen(PlaneOnly):
             (44, 178, 1128)
         """
         joints = {name: cut.to_json() for name, cut in self.told_cuts.items()}
+        networks = self.network_intensities()
         return {
             **of_spheres.figures(self.cells, self.meshes()),
             "removed_spheres": self.removed_spheres,
             "mean_diameter": self.mean_diameter,
             **({"joints": joints} if joints else {}),
+            **({"networks": networks} if networks else {}),
         }
 
 
