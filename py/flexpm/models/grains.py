@@ -221,6 +221,11 @@ class Model:
         return None
 
     @property
+    def largest_clearance(self) -> float | None:
+        """Deepest overlap of 3D grains that no force resists, likewise [-]; None in 2D."""
+        return None
+
+    @property
     def joint_deviation(self) -> float | None:
         """Largest deviation of a load-carrying joint [m], see `Specimen.joint_deviations`."""
         bearing = {joint.name for joint in self.material.joints if not joint.open}
@@ -235,6 +240,11 @@ class SolidModel(Model):
     def largest_overlap(self) -> float | None:
         """Ratio of the deepest overlap of grains to the mean diameter [-]."""
         return float(self.solver.overlaps()["of_diameter"])
+
+    @property
+    def largest_clearance(self) -> float | None:
+        """Ratio of the deepest overlap that no force resists to the mean diameter [-]."""
+        return float(self.solver.overlaps()["clearance"])
 
     def snapshot(self) -> SolidSnapshot:
         """Return the present state as plain arrays."""

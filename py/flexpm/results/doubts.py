@@ -96,7 +96,7 @@ LARGEST_CRACK_DISTANCE = 0.7
 #: loading head is at 1, a roller of the half disc at 1.6.
 LARGEST_NOTCH_DISTANCE = 0.5
 #: Overlap of 3D grains without a common contact, without a warning [diameters].
-LARGEST_OVERLAP = 0.02
+LARGEST_CLEARANCE = 0.02
 #: Warning of a pulse that has not passed both sections undivided.
 NO_PULSE = (
     "a section still moves at the end of the test, or the upper section has barely moved: cracks "
@@ -189,18 +189,18 @@ def of_gravity(gravity: float, damping: float) -> list[str]:
     ]
 
 
-def of_overlap(part: float) -> list[str]:
-    """Warn of overlapping 3D grains that were never neighbours.
+def of_clearance(part: float) -> list[str]:
+    """Warn of overlapping 3D grains that no force separates.
 
     Args:
-        part: Ratio of the deepest of these overlaps to the mean diameter [-].
+        part: Ratio of the deepest overlap that no force resists to the mean diameter [-].
     """
-    if not part > LARGEST_OVERLAP:
+    if not part > LARGEST_CLEARANCE:
         return []
     return [
-        f"overlap = {100.0 * part:.3g} % of a diameter, of grains that were never neighbours and "
-        f"have no contact, is above {100.0 * LARGEST_OVERLAP:g} %; results after the peak are not "
-        "valid, lower the rate or stop at the peak (--stop-ratio)"
+        f"clearance = {100.0 * part:.3g} % of a diameter, the depth to which two grains overlap "
+        f"without a force, is above {100.0 * LARGEST_CLEARANCE:g} %; results after the peak are "
+        "not valid, lower the rate or stop at the peak (--stop-ratio)"
     ]
 
 

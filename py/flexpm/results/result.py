@@ -38,7 +38,7 @@ _SOFTENING = ("flexible", "rigid")
 
 
 #: Keys that only results of solids have.
-OF_SOLIDS = ("tetrahedra", "largest_overlap", "second_confinement")
+OF_SOLIDS = ("tetrahedra", "largest_overlap", "largest_clearance", "second_confinement")
 
 
 #: Column of the record of a box under two lateral pressures: the larger one [Pa].
@@ -126,8 +126,10 @@ class Result(Shown):
     loose_grains: int | None = None  #: joined by no contact to what is held, at the end
     #: growth of a distance between grains once bonded, at the end, in mean diameters [-]
     largest_separation: float | None = None
-    #: deepest overlap of grains of a solid that were never neighbours, in mean diameters [-]
+    #: deepest overlap of grains of a solid without a common face, in mean diameters [-]
     largest_overlap: float | None = None
+    #: deepest part of such an overlap that no force resists, in mean diameters [-]
+    largest_clearance: float | None = None
     fracture_toughness: float | None = None  #: K_I at the peak load [Pa m^0.5]
     residual_strength: float | None = None  #: mean of the end of a shear test [Pa]
     fracture_energy: float | None = None  #: work of the load over the ligament [J/m2]
@@ -188,7 +190,7 @@ class Result(Shown):
         if self.joint_deviation:
             found.append(doubts.of_bend(self.joint_deviation))
         found += doubts.of_cuts(self.joint_cuts or {})
-        found += doubts.of_overlap(self.largest_overlap or 0.0)
+        found += doubts.of_clearance(self.largest_clearance or 0.0)
         found += doubts.of_first_cracks(
             self.first_crack_distance,
             self.first_crack_stress,

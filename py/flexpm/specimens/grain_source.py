@@ -8,19 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeVar
+from typing import Any, TypeVar
 
 from ..errors import InputError
 from ..files import Table
 from ..require import quoted
 from .files.rules import Rule, is_count, is_positive, is_text, list_of
 
-if TYPE_CHECKING:
-    from .plane import Filling
-    from .space.specimen import SolidSpecimen
-    from .specimen import Specimen
-
-Made = TypeVar("Made", "Filling", "SolidSpecimen", "Specimen")
+Made = TypeVar("Made")
 
 #: Entries of a source: name of the file, number of grains found in it, size of a voxel along x, y,
 #: z [m], sides of a pixel [m], ratio of the voxels that are in the cell of their grain [-].
@@ -55,8 +50,10 @@ def traced(made: Made, file: str, **figures: float | Sequence[float]) -> Made:
     """Return a specimen, or a filling of one, whose spec has a source.
 
     Args:
-        made: The specimen.
+        made: The specimen, a dataclass with a ``spec``.
         file: Name of the file without its folder.
         figures: Other entries of the source.
     """
-    return replace(made, spec=replace(made.spec, source={"file": file, **figures}))
+    of: Any = made
+    traced_one: Made = replace(of, spec=replace(of.spec, source={"file": file, **figures}))
+    return traced_one

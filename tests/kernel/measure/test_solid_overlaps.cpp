@@ -219,4 +219,6 @@ TEST_CASE("The overlap of grains that were never neighbours is their depth", "[s
     const double diameter = 2.0 * std::cbrt(0.75 / pi) * d;
     CHECK(found.of_diameter == Approx(found.depth / diameter));
     CHECK(found.depth == Approx(0.1 * d));
+    // nobody has looked for pairs: no force resists any of it
+    CHECK(found.clearance == found.of_diameter);
 }

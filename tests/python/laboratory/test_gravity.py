@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-import re
 
 import numpy as np
 import pytest
@@ -168,17 +167,22 @@ def test_a_column_bears_its_weight(dimension, model, hangs):
 
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
-def test_a_solid_from_which_a_grain_falls_ends_with_one_line(model, tmp_path):
-    """Its lower half breaks off what holds it, since grains that meet anew would not touch."""
+def test_grains_that_break_off_a_solid_fall_freely(model):
+    """Mean velocity of the lower part gains g t; the run goes on."""
     yade.O.reset()
     weak = {"tensile_strength": 50.0, "tensile_fracture_energy": 1e-9}
     rock = flexpm.materials.load(None, model, solid=True).with_set(weak, model)
     built = flexpm.build(column(3), rock, model, dynamic=True, gravity=GRAVITY)
-    rig = flexpm.PartRig(built, out=tmp_path, report=False)
+    rig = flexpm.PartRig(built)
     rig.hold(where=lambda x, y, z: z > 0.02)
-    rig.settle()
-    told = "grains detached under gravity = .*, the first at .*, must be 0 in 3D"
-    assert rig.diverged
-    assert re.search(told, rig.warnings[0]) and len(rig.warnings) == 1
-    rig.finish()
-    assert flexpm.Result.read(tmp_path).status == "diverged"
+    falling = [yade.O.bodies[body].state for body in built.solver.bodyIds]
+    falling = [one for one in falling if one.pos[2] < 0.008]
+
+    def speed() -> float:
+        return float(np.mean([one.vel[2] for one in falling]))
+
+    built.run(math.ceil(1e-3 / yade.O.dt))  # waves of the break have passed
+    begun, steps = speed(), math.ceil(1e-3 / yade.O.dt)
+    built.run(steps)
+    assert begun - speed() == pytest.approx(GRAVITY * steps * yade.O.dt, rel=0.02)
+    assert not rig.diverged

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/measure/solid_overlaps.hpp>
 
+#include <flexpm/kernel/geometry/near_boxes.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
-#include <tuple>
 
 namespace flexpm {
 
@@ -59,42 +57,30 @@ double depth_within(const Body& of, const Body& in)
     return deepest;
 }
 
-/// Grains in the boxes of a lattice, whose edge holds the largest of them.
-class Lattice {
-public:
-    explicit Lattice(const std::vector<Body>& bodies)
-    {
-        for (const Body& b : bodies)
-            edge_ = std::max(edge_, 2.0 * b.radius);
-        for (std::size_t g = 0; g < bodies.size(); ++g)
-            boxes_[box(bodies[g].centre)].push_back(static_cast<int>(g));
-    }
+AxisBox box_of(const Body& body)
+{
+    const Vector reach { body.radius, body.radius, body.radius };
+    return { body.centre - reach, body.centre + reach };
+}
 
-    /// Call visit(grain) for the grains in and about the box of a place.
-    template <class Visit> void for_each_near(Vector p, Visit visit) const
-    {
-        const auto [x, y, z] = box(p);
-        for (int i = -1; i <= 1; ++i)
-            for (int j = -1; j <= 1; ++j)
-                for (int k = -1; k <= 1; ++k) {
-                    const auto found = boxes_.find({ x + i, y + j, z + k });
-                    if (found == boxes_.end()) continue;
-                    for (int g : found->second)
-                        visit(g);
-                }
-    }
+/// Pairs whose faces lie on each other, ascending.
+std::vector<GrainPair> mates(const SolidState& s)
+{
+    std::vector<GrainPair> pairs;
+    for (int c = 0; c < s.contacts.count; ++c)
+        if (!s.contacts.has_ended(c)) pairs.push_back(s.contacts.pairs[c]);
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
 
-private:
-    using Box = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
-    double edge_ = 0.0;
-    std::map<Box, std::vector<int>> boxes_;
-
-    Box box(Vector p) const
-    {
-        const auto of = [&](double c) { return static_cast<std::int64_t>(std::floor(c / edge_)); };
-        return { of(p.x), of(p.y), of(p.z) };
-    }
-};
+/// Depth that no law resists, of a pair that overlaps: all of it without a contact.
+double unresisted(const SolidState& s, const GrainPair& grains, double depth)
+{
+    const auto pair = std::lower_bound(s.pairs.begin(), s.pairs.end(), grains,
+        [](const PairContact& p, const GrainPair& g) { return p.grains < g; });
+    const bool known = pair != s.pairs.end() && pair->grains == grains;
+    return known ? std::clamp(pair->clearance, 0.0, depth) : depth;
+}
 
 }  // namespace
 
@@ -107,26 +93,25 @@ SolidOverlap largest_overlap(const SolidState& s)
         bodies.push_back(body_of(s, g));
         diameter += 2.0 * s.grains.radius[g] / grains;
     }
-    std::vector<std::set<int>> neighbours(grains);
-    for (const auto& [a, b] : s.contacts.pairs)
-        neighbours[a].insert(b);
-    const Lattice lattice(bodies);
+    std::vector<AxisBox> boxes;
+    for (const Body& body : bodies)
+        boxes.push_back(box_of(body));
+    const std::vector<GrainPair> together = mates(s);
     SolidOverlap result;
-    for (int g = 0; g < grains; ++g) {
-        const Body& body = bodies[g];
-        lattice.for_each_near(body.centre, [&](int other) {
-            if (other <= g || neighbours[g].count(other)) return;
-            const Body& next = bodies[other];
-            if (norm(next.centre - body.centre) >= body.radius + next.radius) return;
-            const double depth = std::max(depth_within(body, next), depth_within(next, body));
-            if (!(depth > 0.0)) return;
-            ++result.pairs;
-            if (!(depth > result.depth)) return;
-            result.depth = depth;
-            result.pair = { g, other };
-        });
+    for (const GrainPair& pair : meeting_boxes(boxes)) {
+        if (std::binary_search(together.begin(), together.end(), pair)) continue;
+        const Body &one = bodies[pair[0]], &other = bodies[pair[1]];
+        if (norm(other.centre - one.centre) >= one.radius + other.radius) continue;
+        const double depth = std::max(depth_within(one, other), depth_within(other, one));
+        if (!(depth > 0.0)) continue;
+        ++result.pairs;
+        result.clearance = std::max(result.clearance, unresisted(s, pair, depth));
+        if (!(depth > result.depth)) continue;
+        result.depth = depth;
+        result.pair = pair;
     }
     result.of_diameter = result.depth / diameter;
+    result.clearance /= diameter;
     return result;
 }
 

@@ -157,6 +157,7 @@ public:
 	py::dict        counts();
 	py::object      sideNodes(int side);
 	py::dict        overlaps(Real smallestPart);
+	py::dict        pairs();
 	Real            unbalanced();
 	Real            crossingSteps(Real diameter);
 	py::dict        balance();
@@ -256,7 +257,8 @@ public:
 		.def("parting", After<&GrainSolver::requirePlane, &GrainSolver::parting>::call, "Return the largest increase of the distance between grains that were bonded to each other [m]: of all pairs, and of standing pairs, which have no detached grain. The key for the number of detached grains is ``loose``: grains without a path of contacts to a fixed part and without a pressure.")
 		.def("counts", After<&GrainSolver::requireGrains, &GrainSolver::counts>::call, "Return the numbers of grains, particles (the moving bodies: grains or inner particles), contacts between and within grains in the bonded state, new contacts, nodes, triangles or tetrahedra, mesh groups and boundary edges, without erased objects.")
 		.def("overlaps", After<&GrainSolver::requireGrains, &GrainSolver::overlaps>::call, (py::arg("smallest") = 1e-3),
-			"Return the pairs of grains whose polygons overlap by more than a share of the smaller grain, by name: grains, (n, 2); area of the overlap [m^2]; part, its ratio to the area of the smaller grain [-]; bonded, whether the pair was bonded and is not on a joint; facing, whether a bonded pair still has opposite faces; closed, normal force of the pair divided by its stiffness and the thickness, which is the expected overlap [m^2]. In 3D return the deepest overlap of grains without a common contact, which no force separates: depth [m]; of_diameter, its ratio to the mean diameter [-]; grains, the pair; pairs, number of overlapping pairs.")
+			"Return the pairs of grains whose polygons overlap by more than a share of the smaller grain, by name: grains, (n, 2); area of the overlap [m^2]; part, its ratio to the area of the smaller grain [-]; bonded, whether the pair was bonded and is not on a joint; facing, whether a bonded pair still has opposite faces; closed, normal force of the pair divided by its stiffness and the thickness, which is the expected overlap [m^2]. In 3D return the deepest overlap of grains without a common face: depth [m]; of_diameter, its ratio to the mean diameter [-]; grains, the pair; pairs, number of overlapping pairs; clearance, largest part of a depth that no force resists, divided by the mean diameter [-].")
+		.def("pairs", After<&GrainSolver::requireSolid, &GrainSolver::pairs>::call, "Return the pairs of near 3D grains without a common face, as arrays by name: grains, (n, 2); contact, number of the contact that the pair replaces, -1: none; force on the second grain, (n, 3) [N]; position of the force, (n, 3) [m]; normal_force [N]; area under pressure [m^2]; clearance, depth of overlap without a force [m]; friction_energy, dissipated [J]; elastic_energy [J].")
 		.def("unbalanced", After<&GrainSolver::requireGrains, &GrainSolver::unbalanced>::call, "Return the ratio of the largest unbalanced force to the mean contact force [-] at the last measured step. The force on a plate under a load is divided by the number of grains before the plate.")
 		.def("crossingSteps", After<&GrainSolver::requireGrains, &GrainSolver::crossingSteps>::call, (py::arg("diameter")), "Return the number of steps of O.dt in which a wave crosses a disc, in 3D a sphere, of grains with a diameter [m] [-].")
 		.def("balance", After<&GrainSolver::requireGrains, &GrainSolver::balance>::call,

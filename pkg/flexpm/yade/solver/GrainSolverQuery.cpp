@@ -115,6 +115,7 @@ namespace {
 		d["of_diameter"] = found.of_diameter;
 		d["grains"]      = py::make_tuple(found.pair[0], found.pair[1]);
 		d["pairs"]       = found.pairs;
+		d["clearance"]   = found.clearance;
 		return d;
 	}
 
@@ -160,6 +161,35 @@ py::dict GrainSolver::overlaps(Real smallestPart)
 	d["bonded"] = copied(bonded, 0);
 	d["facing"] = copied(facing, 0);
 	d["closed"] = copied(closed, 0);
+	return d;
+}
+
+py::dict GrainSolver::pairs()
+{
+	std::vector<std::int32_t> grains, face;
+	std::vector<double>       force, place, normalForce, area, clearance, friction, elastic;
+	const auto                push = [](std::vector<double>& to, const flexpm::Vector& v) { to.insert(to.end(), { v.x, v.y, v.z }); };
+	for (const auto& pair : space.pairs) {
+		grains.insert(grains.end(), pair.grains.begin(), pair.grains.end());
+		face.push_back(pair.face);
+		push(force, pair.force);
+		push(place, pair.place);
+		normalForce.push_back(pair.normal_force);
+		area.push_back(pair.area);
+		clearance.push_back(pair.clearance);
+		friction.push_back(pair.friction_energy);
+		elastic.push_back(pair.elastic_energy);
+	}
+	py::dict d;
+	d["grains"]          = copied(grains, 2);
+	d["contact"]         = copied(face, 0);
+	d["force"]           = copied(force, 3);
+	d["position"]        = copied(place, 3);
+	d["normal_force"]    = copied(normalForce, 0);
+	d["area"]            = copied(area, 0);
+	d["clearance"]       = copied(clearance, 0);
+	d["friction_energy"] = copied(friction, 0);
+	d["elastic_energy"]  = copied(elastic, 0);
 	return d;
 }
 

@@ -72,6 +72,7 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
         result.measure_emission(_event_rule(built.specimen, built.solver))
         result.joint_deviation = built.joint_deviation
         result.largest_overlap = built.largest_overlap
+        result.largest_clearance = built.largest_clearance
         cuts = built.specimen.told_cuts.items()
         result.joint_cuts = {name: cut.to_json() for name, cut in cuts} or None
         result.networks = built.specimen.network_intensities() or None

@@ -14,8 +14,8 @@ class SolidGrains(GrainRig):
 
     @property
     def warnings(self) -> list[str]:
-        """Reasons why the record is questionable: `GrainRig.warnings`, overlapping grains."""
-        return super().warnings + doubts.of_overlap(self._solid.overlaps()["of_diameter"])
+        """Reasons why the record is questionable: `GrainRig.warnings`, overlaps without a force."""
+        return super().warnings + doubts.of_clearance(self._solid.overlaps()["clearance"])
 
     @property
     def contact_width(self) -> float | None:

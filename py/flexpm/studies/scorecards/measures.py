@@ -111,8 +111,8 @@ class Measure:
             yield "no peak"
         if "not_quasistatic" in statuses:
             yield "not quasi-static"
-        overlaps = [one.largest_overlap or 0.0 for one in results]
-        if solid and self.after_peak and max(overlaps, default=0.0) > doubts.LARGEST_OVERLAP:
+        overlaps = [one.largest_clearance or 0.0 for one in results]
+        if solid and self.after_peak and max(overlaps, default=0.0) > doubts.LARGEST_CLEARANCE:
             yield "overlap"
         for one in results:
             splits = kind_of(one.test).splits
