@@ -46,7 +46,7 @@ _MINERALS = 1
 #: Part of the results number of runs of 3D specimens; 1: contacts of rigid grains read the motions
 #: of the grains, not those of their nodes, and the elastic start has another preconditioner. Both
 #: change the rounding.
-_SOLIDS = 1
+_SOLIDS = 2
 
 
 @dataclass(frozen=True)
