@@ -55,8 +55,7 @@ TEST_CASE("Boxes far away are found, and those nowhere are not", "[pairs]")
     std::vector<AxisBox> boxes { unit, moved({ far, 0.0, 0.0 }), moved({ far, 0.5, 0.0 }),
         moved({ -far, -far, far }), moved({ std::nan(""), 0.0, 0.0 }),
         moved({ infinite, 0.0, 0.0 }), moved({ 1.0, 1.0, 1.0 }) };
-    CHECK(meeting_boxes(boxes)
-        == std::vector<std::array<int, 2>> { { 0, 6 }, { 1, 2 } });
+    CHECK(meeting_boxes(boxes) == std::vector<std::array<int, 2>> { { 0, 6 }, { 1, 2 } });
     CHECK(meeting_boxes({}).empty());
     // points have no edge
     CHECK(meeting_boxes({ { {}, {} }, { {}, {} } }).size() == 1);

@@ -80,8 +80,7 @@ Resultant resultant(SolidState& s)
             const int centre = s.grains.centre(g);
             const Vector force = space_vector(s.grains.force, centre);
             sum.force = sum.force + force;
-            sum.moment =
-                sum.moment + s.bodies[g].moment + cross(s.grains.position(centre), force);
+            sum.moment = sum.moment + s.bodies[g].moment + cross(s.grains.position(centre), force);
             continue;
         }
         for (int n = 0; n < s.grains.nodes_of(g); ++n) {
@@ -108,8 +107,8 @@ TEST_CASE("Intact grains have no pairs", "[pairs]")
     }
 }
 
-TEST_CASE("A grain that has parted from another presses it anew with K_n, wherever it lands",
-    "[pairs]")
+TEST_CASE(
+    "A grain that has parted from another presses it anew with K_n, wherever it lands", "[pairs]")
 {
     const auto contact = specimens::granite_contact();
     for (const bool rigid : { false, true }) {
@@ -205,7 +204,8 @@ TEST_CASE("Grains that meet keep both momenta and the energy", "[pairs]")
         std::fill(s.grains.prescribed.begin(), s.grains.prescribed.end(), 0);
         const Vector toward { 1e-7, 2e-7, -2e-6 };
         for (int g = 0; g < 2; ++g) {
-            const Vector spin = g == 0 ? Vector { 1e-4, 2e-4, -1e-4 } : Vector { -2e-4, 1e-4, 3e-4 };
+            const Vector spin =
+                g == 0 ? Vector { 1e-4, 2e-4, -1e-4 } : Vector { -2e-4, 1e-4, 3e-4 };
             const int centre = s.grains.centre(g);
             for (int n = 0; n < s.grains.nodes_of(g); ++n) {
                 const int node = s.grains.node(g, n);
@@ -241,8 +241,8 @@ TEST_CASE("Grains that meet keep both momenta and the energy", "[pairs]")
     }
 }
 
-TEST_CASE("Pairs have the same bits on any number of threads, and when a saved state goes on",
-    "[pairs]")
+TEST_CASE(
+    "Pairs have the same bits on any number of threads, and when a saved state goes on", "[pairs]")
 {
     const auto run = [](SolidState s, int threads, int from, int to) {
         for (int k = from; k < to; ++k) {

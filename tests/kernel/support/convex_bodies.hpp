@@ -71,8 +71,8 @@ template <class Geometry> struct Planes {
 };
 
 template <class Geometry>
-BodyOverlap overlap_of(PairOverlap<Geometry>& pair, const Body<Geometry>& a, const Body<Geometry>& b,
-    double clearance = 0.0, bool flat = true)
+BodyOverlap overlap_of(PairOverlap<Geometry>& pair, const Body<Geometry>& a,
+    const Body<Geometry>& b, double clearance = 0.0, bool flat = true)
 {
     const Planes<Geometry> of_a(a, flat), of_b(b, flat);
     return pair.measure(of_a.view, of_b.view, clearance);

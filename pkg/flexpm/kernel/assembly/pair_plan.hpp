@@ -57,7 +57,7 @@ struct PairUse {
 };
 
 struct PairPlan {
-    BodyFaces faces;               ///< empty as long as there are no pairs
+    BodyFaces faces;                ///< empty as long as there are no pairs
     std::vector<GrainBody> bodies;  ///< of grains in pairs
     std::vector<PairWork> pairs;    ///< of each pair
     std::vector<int> first_use;     ///< of each block of grains in `uses`, and the end; empty: none

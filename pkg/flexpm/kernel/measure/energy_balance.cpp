@@ -318,8 +318,8 @@ template <class State> double unbalanced_ratio(const State& s)
         const auto& ended = s.contacts.ended;
         contacts -= static_cast<double>(std::count(ended.begin(), ended.end(), 1));
         contacts += sum_of_pairs(s, [](const PairContact& p) { return p.presses() ? 1.0 : 0.0; });
-        sum = sum_of_forces(s)
-            + sum_of_pairs(s, [](const PairContact& p) { return norm(p.force); });
+        sum =
+            sum_of_forces(s) + sum_of_pairs(s, [](const PairContact& p) { return norm(p.force); });
     }
     return ratio_of_forces(largest_unbalanced(s, grain_of_facets(s)), contacts, sum);
 }

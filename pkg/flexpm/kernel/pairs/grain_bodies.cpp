@@ -91,8 +91,7 @@ void corners_of(const SolidState& s, const BodyFaces& faces, int face, int grain
 void find_corners(GrainBody& body)
 {
     thread_local SpaceOverlap overlap;
-    overlap.find_corners(
-        body.planes.data(), static_cast<int>(body.planes.size()), body.corners);
+    overlap.find_corners(body.planes.data(), static_cast<int>(body.planes.size()), body.corners);
 }
 
 }  // namespace
@@ -162,8 +161,8 @@ void follow_grain(const SolidState& s, const BodyFaces& faces, GrainBody& body)
         const Quaternion& turn = s.bodies[grain].turn;
         for (int f = first; f < end; ++f) {
             const ContactPlane& bonded = body.bonded_planes[f - first];
-            body.planes[f - first]
-                = { turned(turn, bonded.normal), bonded.offset, is_free(s, faces, f) };
+            body.planes[f - first] = { turned(turn, bonded.normal), bonded.offset,
+                is_free(s, faces, f) };
         }
         for (std::size_t k = 0; k < body.corners.size(); ++k)
             body.corners[k] = turned(turn, body.bonded_corners[k]);
@@ -172,8 +171,8 @@ void follow_grain(const SolidState& s, const BodyFaces& faces, GrainBody& body)
     thread_local std::vector<Vector> corners;
     for (int f = first; f < end; ++f) {
         corners_of(s, faces, f, grain, body.centre, corners);
-        body.planes[f - first]
-            = InSpace::plane_of(corners.data(), static_cast<int>(corners.size()));
+        body.planes[f - first] =
+            InSpace::plane_of(corners.data(), static_cast<int>(corners.size()));
         body.planes[f - first].counted = is_free(s, faces, f);
     }
     find_corners(body);

@@ -31,11 +31,11 @@ struct SideOfPair {
     Vector centre;
     bool rigid;
     std::vector<PressedFace> faces;
-    std::vector<int> nodes;         ///< corners of the faces
-    std::vector<Vector> corners;    ///< from the centre [m]
-    std::vector<Vector> pressure;   ///< [N]
-    std::vector<Modes> friction;    ///< forces for loads of 1
-    Vector place;                   ///< where friction acts on the nodes [m]
+    std::vector<int> nodes;        ///< corners of the faces
+    std::vector<Vector> corners;   ///< from the centre [m]
+    std::vector<Vector> pressure;  ///< [N]
+    std::vector<Modes> friction;   ///< forces for loads of 1
+    Vector place;                  ///< where friction acts on the nodes [m]
 };
 
 /// Room for a pair; each thread has its own.
@@ -72,8 +72,7 @@ void find_shares(const Vector* corners, int count, Vector at, std::vector<double
 
 /// Add forces without a sum that have a moment. Forces across the polygon, which turn its area vector,
 /// take what lies in its plane, and forces around its mean the rest.
-template <class Add>
-void add_couple(const Vector* corners, int count, Vector moment, Add add)
+template <class Add> void add_couple(const Vector* corners, int count, Vector moment, Add add)
 {
     Vector twice, mean = (1.0 / count) * corners[0];
     for (int k = 1; k < count; ++k)
@@ -124,8 +123,7 @@ void find_side(const SolidState& s, const GrainBody& body, int which, int faces_
         const int first = static_cast<int>(side.nodes.size());
         for (int k = faces.first_corner[face]; k < faces.first_corner[face + 1]; ++k) {
             side.nodes.push_back(faces.corners[k]);
-            side.corners.push_back(
-                present_position(s, body.grain, faces.corners[k]) - body.centre);
+            side.corners.push_back(present_position(s, body.grain, faces.corners[k]) - body.centre);
         }
         const double size = norm(on.force);
         side.faces.push_back({ first, static_cast<int>(side.nodes.size()) - first, size,
@@ -135,8 +133,8 @@ void find_side(const SolidState& s, const GrainBody& body, int which, int faces_
     side.pressure.assign(side.nodes.size(), {});
     for (PressedFace& face : side.faces) {
         face.share /= sum;
-        InSpace::spread(side.corners.data() + face.first, face.count,
-            { 0, face.force, face.point }, side.pressure.data() + face.first);
+        InSpace::spread(side.corners.data() + face.first, face.count, { 0, face.force, face.point },
+            side.pressure.data() + face.first);
     }
 }
 
@@ -165,8 +163,8 @@ void add_couples(SideOfPair& side, const Modes& moments)
 {
     const PressedFace& face = main_face(side);
     for (int mode = 0; mode < modes; ++mode) {
-        add_couple(side.corners.data() + face.first, face.count, moments[mode],
-            [&](int k, Vector force) {
+        add_couple(
+            side.corners.data() + face.first, face.count, moments[mode], [&](int k, Vector force) {
                 Vector& sum = side.friction[face.first + k][mode];
                 sum = sum + force;
             });
@@ -174,8 +172,8 @@ void add_couples(SideOfPair& side, const Modes& moments)
 }
 
 /// Work of each of the loads on the motion of a step: its way.
-std::array<double, modes> ways_of(const SolidState& s, const std::array<SideOfPair, 2>& sides, Vector at,
-    const Modes& loads, double dt)
+std::array<double, modes> ways_of(const SolidState& s, const std::array<SideOfPair, 2>& sides,
+    Vector at, const Modes& loads, double dt)
 {
     std::array<double, modes> work {};
     for (int k = 0; k < 2; ++k) {
@@ -183,8 +181,7 @@ std::array<double, modes> ways_of(const SolidState& s, const std::array<SideOfPa
         if (side.rigid) {
             const double sign = k == 0 ? -1.0 : 1.0;
             const Vector spin = s.bodies[side.grain].spin;
-            const Vector velocity
-                = space_vector(s.grains.velocity, s.grains.centre(side.grain))
+            const Vector velocity = space_vector(s.grains.velocity, s.grains.centre(side.grain))
                 + cross(spin, at - side.centre);
             for (int mode = 0; mode + 1 < modes; ++mode)
                 work[mode] += sign * dt * dot(loads[mode], velocity);
@@ -303,8 +300,8 @@ void update_pair(SolidState& s, int number, double dt, Room& room)
         if (side.rigid || side.faces.empty()) continue;
         const double sign = k == 0 ? -1.0 : 1.0;
         const double half = room.sides[1 - k].rigid ? -1.0 : -0.5;
-        add_couples(side, { half * cross(apart, first), half * cross(apart, second),
-                              sign * press.normal });
+        add_couples(
+            side, { half * cross(apart, first), half * cross(apart, second), sign * press.normal });
     }
     const std::array<double, modes> way = ways_of(s, room.sides, at, loads, dt);
     const PairWay moved { way[0] * first + way[1] * second, way[2] };

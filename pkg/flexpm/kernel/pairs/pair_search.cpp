@@ -269,8 +269,7 @@ void take_over(SolidState& s, int contact, const FaceLoad& load)
     const Vector along = load.force - dot(load.force, pair->normal) * pair->normal;
     pair->slip = (-1.0 / (law.shear_stiffness * now.area)) * along;
     const double stored = spring_energy(*pair, law.shear_stiffness);
-    if (stored > load.shear_energy)
-        pair->slip = std::sqrt(load.shear_energy / stored) * pair->slip;
+    if (stored > load.shear_energy) pair->slip = std::sqrt(load.shear_energy / stored) * pair->slip;
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ void GrainSolver::limitStep()
 	if (scaled) return;
 	const Real stable = onState([this](const auto& state) { return Real(flexpm::stable_step(state, massDamping)); });
 	massStep          = std::min(massStep, stable);
-	scene->dt = std::min(scene->dt, massStep);
+	scene->dt         = std::min(scene->dt, massStep);
 }
 
 void GrainSolver::insertTouches(int firstId)
