@@ -273,3 +273,62 @@ TEST_CASE(
         CHECK(same_bits::difference(whole, run(saved, 1, 90, 200)) == "");
     }
 }
+
+TEST_CASE("A joint without strength hands over as it slides", "[pairs]")
+{
+    for (const bool rigid : { false, true }) {
+        SolidInput input = granite(FacePointRule::corners_and_inner, rigid);
+        ContactMaterial open = specimens::granite_contact();
+        open.tensile_strength = open.cohesion = 0.0;
+        open.tensile_fracture_energy = open.shear_fracture_energy = 0.0;
+        open.friction = 0.6;
+        input.joints = { open };
+        input.joint = { 0 };
+        SolidState s =
+            make_solid(solid_samples::brick(1, 1, 2), Solid::box(side, side, 2.0 * side), input);
+        scale_masses(s, 0.0);
+        const double depth = 1e-4 * side;
+        move_by(s, { 1 }, { 0.0, 0.0, -depth }, 10);
+        CHECK(s.pairs.empty());
+        move_by(s, { 1 }, { 0.3 * side, 0.0, 0.0 }, 300);
+        REQUIRE(s.pairs.size() == 1);
+        CHECK(s.pairs[0].face == 0);
+        const Vector force = force_on(s, { 1 });
+        CHECK(force.z == Approx(0.7 * open.normal_stiffness * side * side * depth).epsilon(0.01));
+        CHECK(-force.x / force.z == Approx(open.friction).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("Masses carry grains that land on each other's outer faces", "[pairs]")
+{
+    for (const bool rigid : { false, true }) {
+        SolidState s = cubes(1, 2, rigid);
+        scale_masses(s, 0.0);
+        CHECK(stable_step(s, 0.0) == Approx(1.0));
+        move_by(s, { 1 }, { 0.0, 0.0, 0.1 * side }, 50);
+        // around to the other side, whose faces have never had a contact
+        move_by(s, { 1 }, { 1.1 * side, 0.0, 0.0 }, 50);
+        move_by(s, { 1 }, { 0.0, 0.0, -1.1 * side }, 50);
+        move_by(s, { 1 }, { -0.101 * side, 0.0, 0.0 }, 50);
+        REQUIRE(s.pairs.size() == 1);
+        REQUIRE(s.pairs[0].presses());
+        CHECK(bear_pairs(s, 0.0, 1.0));
+        CHECK_FALSE(bear_pairs(s, 0.0, 1.0));
+        CHECK(stable_step(s, 0.0) >= 1.0 - 1e-12);
+        // real masses stay, and the step falls
+        set_real_masses(s);
+        const double before = stable_step(s, 0.0);
+        CHECK(bear_pairs(s, 0.0, 0.0));
+        CHECK(stable_step(s, 0.0) < before);
+        // let go, at the limit of stability: energy swings, but does not grow
+        scale_masses(s, 0.0);
+        bear_pairs(s, 0.0, 1.0);
+        std::fill(s.grains.prescribed.begin(), s.grains.prescribed.end(), 0);
+        for (RigidBody& body : s.bodies)
+            body.spin_held = false;
+        const double stored = energies(s).elastic;
+        for (int k = 0; k < 500; ++k)
+            step(s, { 1.0, 0.0, 1, true });
+        CHECK(energies(s).kinetic + energies(s).elastic < 1.5 * stored);
+    }
+}

@@ -35,8 +35,8 @@ struct GrainBody {
     }
 };
 
-/// What a pair does on one of its grains: forces on nodes, or on a rigid grain their sum and moment
-/// about its centre.
+/// What a pair does on one of its grains: forces on nodes, and of a rigid grain, which reads these
+/// alone, their sum and moment about its centre.
 struct PairLoad {
     std::vector<int> nodes;
     std::vector<Vector> forces;  ///< of each of the nodes [N]

@@ -60,7 +60,7 @@ void add_faces(const SolidState& s, Virial& total)
         const std::vector<FacePlace> places = places_of(s, contact);
         const std::vector<Vector> forces = point_forces(s, contact);
         for (int p = 0; p < c.points_of(contact); ++p) {
-            if (!(c.area(contact, p) > 0.0)) continue;
+            if (!(c.area(contact, p) > 0.0) || c.has_ended(contact)) continue;
             const Vector force = forces[p];
             for (int k = 0; k < c.corners_of(contact); ++k)
                 total.add(c.share(contact, p, k) * force,

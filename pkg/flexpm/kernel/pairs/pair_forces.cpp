@@ -139,7 +139,7 @@ void find_side(const SolidState& s, const GrainBody& body, int which, int faces_
 }
 
 /// Forces on the nodes of a side for friction of 1 at a point.
-/// @param at     from the middle of the pair [m]
+/// @param at     where friction acts [m]
 /// @param sign   1: side of the second grain
 void spread_friction(SideOfPair& side, Vector at, const Modes& loads, double sign)
 {
@@ -212,7 +212,6 @@ void write_load(const SideOfPair& side, Vector at, Vector friction, double momen
         const Vector rubbing = sign * friction;
         to.force = to.force + rubbing;
         to.moment = to.moment + cross(at - side.centre, rubbing) + sign * moment * normal;
-        return;
     }
     to.nodes = side.nodes;
     for (std::size_t i = 0; i < side.nodes.size(); ++i) {
@@ -242,11 +241,11 @@ void part(PairContact& pair, const LawParameters& law, PairWork& work)
 
 /// Let the planes that were moved outwards at a hand-over, to keep its energy, come back while the
 /// pair slides. What the overlap stores less counts as friction.
-void fade(PairContact& pair, double slid, const LawParameters& law, const ContactBody& a,
-    const ContactBody& b, Room& room)
+/// @param before  energy of the overlap until then, over K_n
+void fade(PairContact& pair, double slid, double before, const LawParameters& law,
+    const ContactBody& a, const ContactBody& b, Room& room)
 {
     constexpr double fading = 0.01;
-    const double before = room.overlap.measure(a, b, pair.clearance).energy;
     pair.clearance = std::min(pair.clearance + fading * slid, 0.0);
     const double less =
         law.normal_stiffness * (before - room.overlap.measure(a, b, pair.clearance).energy);
@@ -280,28 +279,18 @@ void update_pair(SolidState& s, int number, double dt, Room& room)
 
     find_side(s, a, 0, of_a.faces, law.normal_stiffness, forces, room.sides[0]);
     find_side(s, b, 1, of_a.faces, law.normal_stiffness, forces, room.sides[1]);
+    if (room.sides[0].faces.empty() || room.sides[1].faces.empty()) return part(pair, law, work);
     const auto [first, second] = InSpace::tangents(press.normal);
     const Modes loads { first, second, press.normal };
-    std::array<Vector, 2> places;
-    for (int k = 0; k < 2; ++k) {
-        SideOfPair& side = room.sides[k];
-        if (side.rigid || side.faces.empty()) {
-            places[k] = at;
-            continue;
-        }
-        spread_friction(side, at, loads, k == 0 ? -1.0 : 1.0);
-        places[k] = side.place;
-    }
+    spread_friction(room.sides[0], at, loads, -1.0);
+    spread_friction(room.sides[1], at, loads, 1.0);
     // friction that acts in different places on both sides has a moment, which either side gets
     // half of, with the opposite sign
-    const Vector apart = places[1] - places[0];
+    const Vector apart = room.sides[1].place - room.sides[0].place;
     for (int k = 0; k < 2; ++k) {
-        SideOfPair& side = room.sides[k];
-        if (side.rigid || side.faces.empty()) continue;
-        const double sign = k == 0 ? -1.0 : 1.0;
-        const double half = room.sides[1 - k].rigid ? -1.0 : -0.5;
-        add_couples(
-            side, { half * cross(apart, first), half * cross(apart, second), sign * press.normal });
+        add_couples(room.sides[k],
+            { -0.5 * cross(apart, first), -0.5 * cross(apart, second),
+                (k == 0 ? -1.0 : 1.0) * press.normal });
     }
     const std::array<double, modes> way = ways_of(s, room.sides, at, loads, dt);
     const PairWay moved { way[0] * first + way[1] * second, way[2] };
@@ -320,7 +309,8 @@ void update_pair(SolidState& s, int number, double dt, Room& room)
     pair.force = on_b - rubs.force;
     pair.elastic_energy =
         law.normal_stiffness * overlap.energy + spring_energy(pair, law.shear_stiffness);
-    if (pair.clearance < 0.0 && rubs.slid > 0.0) fade(pair, rubs.slid, law, of_a, of_b, room);
+    if (pair.clearance < 0.0 && rubs.slid > 0.0)
+        fade(pair, rubs.slid, overlap.energy, law, of_a, of_b, room);
 }
 
 }  // namespace
@@ -353,7 +343,7 @@ void add_pair_forces(SolidState& s, int block)
     if (plan.first_use.empty()) return;
     for (int i = plan.first_use[block]; i < plan.first_use[block + 1]; ++i) {
         const PairLoad& load = plan.pairs[plan.uses[i].pair].loads[plan.uses[i].side];
-        for (std::size_t k = 0; k < load.nodes.size(); ++k) {
+        for (std::size_t k = 0; k < load.nodes.size() && !s.is_rigid(); ++k) {
             double* force = s.grains.force.data() + load.nodes[k];
             force[0] += load.forces[k].x;
             force[1] += load.forces[k].y;

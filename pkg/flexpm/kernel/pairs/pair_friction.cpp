@@ -55,7 +55,8 @@ PairFriction advance_friction(PairContact& pair, const PairPress& press, const P
     PairFriction now;
     const double limit = friction * press.force;
     const double size = norm(pair.slip);
-    const double held = std::min(k * size, limit) / k;
+    // what sticks keeps its digits
+    const double held = k * size > limit ? limit / k : size;
     const Vector plastic = size > held ? ((size - held) / size) * pair.slip : Vector {};
     pair.slip = pair.slip - plastic;
     now.force = k * pair.slip;
@@ -63,7 +64,9 @@ PairFriction advance_friction(PairContact& pair, const PairPress& press, const P
     pair.friction_energy += std::max(0.5 * dot(force_before + now.force, plastic), 0.0);
 
     const double most = twist_limit * limit * r;
-    const double twist = std::clamp(pair.twist, -most / turning, most / turning);
+    const double twist = std::fabs(turning * pair.twist) > most
+        ? std::copysign(most / turning, pair.twist)
+        : pair.twist;
     const double turned = pair.twist - twist;
     pair.twist = twist;
     now.moment = turning * twist;

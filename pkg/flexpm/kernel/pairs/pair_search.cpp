@@ -12,6 +12,7 @@
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -25,15 +26,6 @@ constexpr double parting_way = 0.02, parting_turn = 0.0349;
 
 /// Distance within which grains are near, over the mean diameter [-].
 constexpr double near_distance = 0.05;
-
-bool is_cracked(const FaceContacts& c, int contact)
-{
-    const auto& cracks = c.cracks[c.block_of(contact)];
-    if (cracks.empty()) return false;
-    for (int p = 0; p < c.points_of(contact); ++p)
-        if (c.area(contact, p) > 0.0 && c.crack(contact, p).mode == intact) return false;
-    return true;
-}
 
 /// Normal of one side of a contact, from the first grain to the second.
 Vector side_normal(const SolidState& s, int contact, int side)
@@ -50,7 +42,7 @@ std::vector<int> parted_contacts(const SolidState& s)
     std::vector<int> parted;
     const FaceContacts& c = s.contacts;
     for (int contact = 0; contact < c.count; ++contact)
-        if (!c.has_ended(contact) && is_cracked(c, contact) && has_parted(s, contact))
+        if (!c.has_ended(contact) && is_cracked_through(c, contact) && has_parted(s, contact))
             parted.push_back(contact);
     return parted;
 }
@@ -197,10 +189,39 @@ std::vector<GrainPair> near_pairs(const SolidState& s)
     return pairs;
 }
 
+/// Laws of pairs that come: that of a joint on which both grains lie, else that of their minerals.
+class PairLaws {
+public:
+    explicit PairLaws(const SolidState& of) : s(of)
+    {
+        const FaceContacts& c = s.contacts;
+        if (c.joint.empty()) return;
+        joints.resize(s.grains.count);
+        for (int contact = 0; contact < c.count; ++contact)
+            if (c.joint[contact] >= 0)
+                for (int grain : c.pairs[contact])
+                    joints[grain].push_back({ c.joint[contact], c.law[contact] });
+    }
+
+    int of(const GrainPair& pair) const
+    {
+        if (!joints.empty())
+            for (const auto& [joint, law] : joints[pair[0]])
+                for (const auto& other : joints[pair[1]])
+                    if (other[0] == joint) return law;
+        return s.grains.law_index(pair[0], pair[1]);
+    }
+
+private:
+    const SolidState& s;
+    std::vector<std::vector<std::array<int, 2>>> joints;  ///< of each grain, with their laws
+};
+
 /// Keep the pairs that are near, and add those that have come; leave the plan without work.
 void replace_pairs(SolidState& s, const std::vector<GrainPair>& near)
 {
     std::vector<PairContact> kept;
+    const PairLaws laws(s);
     auto old = s.pairs.begin();
     for (const GrainPair& grains : near) {
         for (; old != s.pairs.end() && old->grains < grains; ++old)
@@ -211,7 +232,7 @@ void replace_pairs(SolidState& s, const std::vector<GrainPair>& near)
         }
         PairContact pair;
         pair.grains = grains;
-        pair.law = s.grains.law_index(grains[0], grains[1]);
+        pair.law = laws.of(grains);
         pair.clearance = std::numeric_limits<double>::infinity();  // until it is found
         kept.push_back(pair);
     }
@@ -233,11 +254,27 @@ void find_clearances(SolidState& s)
     SpaceOverlap overlap;
     for (std::size_t i = 0; i < s.pairs.size(); ++i) {
         PairContact& pair = s.pairs[i];
-        if (pair.presses() || !(pair.clearance > 0.0)) continue;
+        if (pair.presses()) continue;
+        if (!(pair.clearance > 0.0)) {
+            pair.clearance = 0.0;  // what was left of a hand-over
+            continue;
+        }
         const PairWork& work = s.plan.pairs.pairs[i];
         const auto body = [&](int k) { return s.plan.pairs.bodies[work.bodies[k]].view(); };
         pair.clearance = std::min(pair.clearance, overlap.birth_clearance(body(0), body(1)));
     }
+}
+
+/// Clearance at which a pair stores an energy over K_n, or none of it where the bodies have too little
+/// in common.
+double clearance_of(SpaceOverlap& overlap, const ContactBody& a, const ContactBody& b,
+    double energy, double diameter)
+{
+    constexpr double farthest = 0.05;  // over the diameter
+    if (!(energy > 0.0) || !std::isfinite(energy)) return overlap.birth_clearance(a, b);
+    const double most = overlap.measure(a, b, -farthest * diameter).energy;
+    if (!(most > energy)) return overlap.birth_clearance(a, b);
+    return overlap.clearance_for(a, b, energy);
 }
 
 /// Let the pair of a contact that has ended take over what it stores and bears.
@@ -253,8 +290,8 @@ void take_over(SolidState& s, int contact, const FaceLoad& load)
     const PairWork& work = s.plan.pairs.pairs[pair - s.pairs.begin()];
     const auto body = [&](int k) { return s.plan.pairs.bodies[work.bodies[k]].view(); };
     thread_local SpaceOverlap overlap;
-    pair->clearance = overlap.clearance_for(
-        body(0), body(1), std::max(load.pressure_energy, 0.0) / law.normal_stiffness);
+    pair->clearance = clearance_of(overlap, body(0), body(1),
+        load.pressure_energy / law.normal_stiffness, mean_diameter(s.grains));
     const BodyOverlap now = overlap.measure(body(0), body(1), pair->clearance);
     if (!(now.area > 0.0) || !(load.pressure_energy > 0.0)) return;
     Vector on_b;

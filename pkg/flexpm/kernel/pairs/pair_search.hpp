@@ -21,7 +21,7 @@ bool has_parted(const SolidState& s, int contact);
 /// overlap of pairs that do not press. To be called between steps; a saved state goes on with the same
 /// bits if calls come at the same steps.
 ///
-/// @return  whether pairs have come or grown, so that masses may have to rise
+/// @return  whether there are pairs
 bool look_for_pairs(SolidState& s);
 
 /// Derive what a step needs of the pairs, after loading.

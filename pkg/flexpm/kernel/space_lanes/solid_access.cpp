@@ -77,6 +77,19 @@ std::vector<FacePlace> places_of(const SolidState& s, int contact)
     return places;
 }
 
+bool is_cracked_through(const FaceContacts& c, int contact)
+{
+    const int block = c.block_of(contact);
+    if (c.states[block].empty() && c.cracks[block].empty()) return false;
+    const LawParameters& law = c.law_of(contact);
+    for (int p = 0; p < c.points_of(contact); ++p) {
+        if (!(c.area(contact, p) > 0.0) || c.crack(contact, p).mode != intact) continue;
+        const FacePointState state = c.point_state(contact, p);
+        if (law::damage(law, state.max_opening, state.shear_damage) < 1.0) return false;
+    }
+    return true;
+}
+
 FaceTraction traction_of(const FaceContacts& contacts, int contact, int point, FacePlace place)
 {
     if (contacts.has_ended(contact)) return { 0.0, {}, 1.0, 1.0 };

@@ -38,6 +38,9 @@ Vector area_vector(const SolidState& s, int triangle);
 /// Where the points of a contact are, along its frame; of a face without area 0.
 std::vector<FacePlace> places_of(const SolidState& s, int contact);
 
+/// Whether all bonds of a contact have gone, those of a joint without strength from the start.
+bool is_cracked_through(const FaceContacts& contacts, int contact);
+
 /// What a point bears at a place, by its state, or where it is.
 FaceTraction traction_of(const FaceContacts& contacts, int contact, int point, FacePlace place);
 FaceTraction traction_of(const SolidState& s, int contact, int point);

@@ -300,6 +300,11 @@ void show_nodes(SolidState& s)
     Array<double>& forces = s.plan.shown_forces;
     forces = s.grains.force;
     add_node_forces(s, forces.data());
+    for (const PairWork& pair : s.plan.pairs.pairs)
+        for (const PairLoad& load : pair.loads)
+            for (std::size_t k = 0; k < load.nodes.size(); ++k)
+                set_space_vector(
+                    forces, load.nodes[k], space_vector(forces, load.nodes[k]) + load.forces[k]);
 }
 
 void write_motion(const BodyMotion& motion, double* to)

@@ -133,10 +133,8 @@ PairStiffness stiffness_of(const SolidState& s, int number, int side, double are
     const LawParameters& law = s.contacts.laws[pair.law];
     const double all = area * std::max(law.normal_stiffness, law.shear_stiffness);
     const int grain = pair.grains[side];
-    if (!s.grains.is_rigid(grain)) {
-        const auto nodes = s.plan.pairs.pairs[number].loads[side].nodes.size();
-        return { 2.0 * all / static_cast<double>(std::max<std::size_t>(nodes, 1)), 0.0 };
-    }
+    // the share of a corner in a force near it is up to 3/4, on both sides
+    if (!s.grains.is_rigid(grain)) return { 1.5 * all, 0.0 };
     const double r = s.grains.radius[grain];
     const double arm = norm(pair.place - s.grains.position(s.grains.centre(grain))) / r;
     return { (2.0 + arm) * all, r * r * arm * (2.0 + arm) * all };
@@ -153,7 +151,9 @@ std::vector<int> pair_nodes(const SolidState& s, int number, int side)
 /// Pairs by the areas that masses have been raised for.
 void add_pairs(const SolidState& s, SolidBound& bound)
 {
-    for (std::size_t i = 0; i < s.plan.pairs.pairs.size(); ++i) {
+    // of a state that was loaded the next step finds the nodes
+    if (s.plan.pairs.pairs.size() != s.pairs.size()) return;
+    for (std::size_t i = 0; i < s.pairs.size(); ++i) {
         for (int side = 0; side < 2; ++side) {
             const auto number = static_cast<int>(i);
             const PairStiffness k = stiffness_of(s, number, side, s.pairs[i].mass_area);
@@ -162,6 +162,13 @@ void add_pairs(const SolidState& s, SolidBound& bound)
             if (s.is_rigid()) bound.turn[s.pairs[i].grains[side]] += k.turn;
         }
     }
+}
+
+/// Masses are found anew, without pairs: bear_pairs() adds theirs.
+void forget_pairs(SolidState& s)
+{
+    for (PairContact& pair : s.pairs)
+        pair.mass_area = 0.0;
 }
 
 /// Add to the mass of a node; the kinetic energy that this adds counts as initial energy.
@@ -271,6 +278,7 @@ void scale_masses(SolidState& s, double damping, double dt)
 {
     check_damping(damping);
     check_positive("time step", dt, "s");
+    forget_pairs(s);
     const SolidBound bound = stiffness_bound(s);
     const double factor = mass_factor(damping, dt);
     for_each_mass(
@@ -325,6 +333,7 @@ SolidMass real_mass(const SolidState& s, int grain)
 
 void set_real_masses(SolidState& s)
 {
+    forget_pairs(s);
     Array<double> mass(s.grains.inverse_mass.size(), 0.0);
     for (int g = 0; g < s.grains.count; ++g) {
         const double density = s.grains.elastic[s.grains.material[g]].density;

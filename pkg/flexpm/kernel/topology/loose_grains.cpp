@@ -18,12 +18,10 @@ bool joins(const SolidState& s, int contact)
 {
     const FaceContacts& c = s.contacts;
     if (c.has_ended(contact)) return false;
-    const auto counts = [&](int p) { return c.area(contact, p) > 0.0; };
-    for (int p = 0; p < c.points_of(contact); ++p)
-        if (counts(p) && c.crack(contact, p).mode == intact) return true;
+    if (!is_cracked_through(c, contact)) return true;
     const std::vector<FacePlace> places = places_of(s, contact);
     for (int p = 0; p < c.points_of(contact); ++p)
-        if (counts(p) && places[p].opening < 0.0) return true;
+        if (c.area(contact, p) > 0.0 && places[p].opening < 0.0) return true;
     return false;
 }
 

@@ -5,8 +5,10 @@
 #include <flexpm/kernel/assembly/solid_plan.hpp>
 #include <flexpm/kernel/assembly/state_check.hpp>
 #include <flexpm/kernel/measure/energy_balance.hpp>
+#include <flexpm/kernel/pairs/pair_search.hpp>
 #include <flexpm/kernel/parts/node_sets.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
+#include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/step/solid_step.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 #include <flexpm/kernel/topology/loose_grains.hpp>
@@ -78,12 +80,13 @@ void GrainSolver::takeSolidStep()
 {
 	try {
 		if (stepsDone() % checkPeriod == 0) {
-			lookForPairs();
+			flexpm::look_for_pairs(space);
 			flexpm::find_loose(space);
 		}
 		auto options        = stepOptions();
 		options.leave_nodes = true;
 		flexpm::step(space, options);
+		if (flexpm::bear_pairs(space, massDamping, scaled ? scene->dt : 0.)) limitStep();
 	} catch (const std::runtime_error& error) { // of faces that have turned over: the record up to here is good
 		diverge(error.what());
 		throw;

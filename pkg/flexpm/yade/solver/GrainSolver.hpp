@@ -175,7 +175,7 @@ public:
 		((flexpm::SolidState, space,, Attr::hidden, "The packed arrays of grains in 3D, the only copy of their state."))
 		((Real, damping, 0.7,, "Local non-viscous damping coefficient alpha, Eq. 2 [-]."))
 		((int, measurePeriod, 100,, "Steps between two measurements of kinetic energy and unbalanced force [-]."))
-		((int, checkPeriod, 100,, "Steps between two checks for numbers that are not finite, contacts that have ended, and bodies that scripts have erased or replaced [-]."))
+		((int, checkPeriod, 100,, "Steps between two checks for numbers that are not finite, contacts that have ended, in 3D pairs of near grains and their clearances, and bodies that scripts have erased or replaced [-]."))
 		((int, mirrorPeriod, 1,, "Steps between two updates of the bodies' states, which the grains do not need [-]; flexpm.run uses the period of the checks. With 1, the bonds and O.forces are updated, too, whenever the simulation stops."))
 		((int, touchPeriod, 10,, "Steps between two searches for discs that touch [-]."))
 		((Real, touchMargin, .2,, "Ratio of a distance to the diameter of a disc: closer discs are observed for new contacts until the next check [-]."))
@@ -314,7 +314,6 @@ private:
 	flexpm::Erasure findErased() const;
 	void            listCandidates();
 	void            changeContacts();
-	void            lookForPairs();
 	void            limitStep();
 	void            insertTouches(int firstId);
 	void            followFaces();

@@ -3,7 +3,6 @@
 #include <flexpm/yade/solver/GrainSolver.hpp>
 
 #include <flexpm/kernel/core/require.hpp>
-#include <flexpm/kernel/pairs/pair_search.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 #include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/topology/crack_faces.hpp>
@@ -177,12 +176,6 @@ void GrainSolver::showContact(int place)
 	if (!pair->isReal()) pair->iterMadeReal = scene->iter;
 	makeBond(own(), id, *pair);
 	bondsShown = true; // until the end of the step
-}
-
-void GrainSolver::lookForPairs()
-{
-	if (!flexpm::look_for_pairs(space)) return;
-	if (flexpm::bear_pairs(space, massDamping, scaled ? scene->dt : 0.)) limitStep();
 }
 
 void GrainSolver::limitStep()
