@@ -177,6 +177,59 @@ TEST_CASE("Discs cut their area in the mean, and many of them lose no volume", "
     CHECK(again.volumes == cells.volumes);
 }
 
+TEST_CASE("A plane on a wall has no area inside the specimen", "[space]")
+{
+    for (const Solid& solid : { block, core }) {
+        const double top = solid.high.z, off = 1e-12 * top;
+        for (const double z : { 0.0, off, -off, top, top - off, top + off })
+            for (const double up : { 1.0, -1.0 })
+                CHECK(area_within(plane_through({ 0, 0, z }, { 0, 0, up }), solid) == 0.0);
+        const double section = solid.volume / top;
+        for (const double z : { 1e-6 * top, (1.0 - 1e-6) * top })
+            CHECK(area_within(plane_through({ 0, 0, z }, { 0, 0, 1 }), solid)
+                == Approx(section).epsilon(1e-9));
+    }
+    CHECK(area_within(disc_about(block.high, { 0, 0, 1 }, side), block) == 0.0);
+}
+
+TEST_CASE("A cell without a closed section is passed only near the region", "[space]")
+{
+    // a U along y, both arms of which the plane crosses, and a cube on one arm
+    const std::vector<Vector> u = { { 0, 0, 0 }, { 3, 0, 0 }, { 3, 0, 2 }, { 2, 0, 2 }, { 2, 0, 1 },
+        { 1, 0, 1 }, { 1, 0, 2 }, { 0, 0, 2 } };
+    CellComplex both;
+    both.cells = 2;
+    for (const double y : { 0.0, 1.0 })
+        for (const Vector& p : u)
+            both.vertices.push_back({ p.x, y, p.z });
+    for (const double y : { 0.0, 1.0 })
+        for (const double x : { 0.0, 1.0 })
+            both.vertices.push_back({ x, y, 3.0 });
+    both.walls.resize(both.vertices.size());
+    both.faces.push_back({ 0, -1, 0, { 0, 1, 2, 3, 4, 5, 6, 7 } });
+    both.faces.push_back({ 0, -1, 0, { 15, 14, 13, 12, 11, 10, 9, 8 } });
+    for (int k = 0; k < 8; ++k) {
+        const int next = (k + 1) % 8, other = k == 6 ? 1 : -1;
+        both.faces.push_back({ 0, other, other < 0 ? 0 : -1, { next, k, k + 8, next + 8 } });
+    }
+    both.faces.push_back({ 1, -1, 0, { 7, 6, 17, 16 } });
+    both.faces.push_back({ 1, -1, 0, { 14, 15, 18, 19 } });
+    both.faces.push_back({ 1, -1, 0, { 15, 7, 16, 18 } });
+    both.faces.push_back({ 1, -1, 0, { 6, 14, 19, 17 } });
+    both.faces.push_back({ 1, -1, 0, { 16, 17, 19, 18 } });
+    REQUIRE(cell_volumes(both)[0] == Approx(5.0));
+    REQUIRE(cell_volumes(both)[1] == Approx(1.0));
+    const auto cut_where = [&](const std::vector<HalfSpace>& region) {
+        CellComplex complex = both;
+        PlaneCut cut { { 0, 0, 1 }, 1.8, region };
+        cut.wall = 1;
+        return CellCutter(complex, { 1e-9, 0.0, 0.0, 1.0 }).cut_by_plane(cut).cut;
+    };
+    CHECK(cut_where({}) == Approx(1.0));
+    CHECK(cut_where({ { { -1, 0, 0 }, -1.0 } }) == Approx(1.0));  // x > 1
+    CHECK(cut_where({ { { -1, 0, 0 }, -5.0 } }) == 0.0);          // x > 5
+}
+
 TEST_CASE("Joints that are no planes are refused", "[space]")
 {
     const JointPlane good = disc_about({ side, side, side }, { 0, 0, 1 }, side);

@@ -85,9 +85,15 @@ std::vector<Vector> square_across(const JointPlane& joint, const Solid& solid)
 
 double area_within(const JointPlane& joint, const Solid& solid)
 {
+    const double size = norm(solid.high - solid.low);
     std::vector<HalfSpace> walls;
-    for (const Wall& wall : solid.walls)
+    for (const Wall& wall : solid.walls) {
+        const double sense = dot(wall.normal, joint.normal);
+        const bool is_on_wall = 1.0 - std::fabs(sense) <= round_off
+            && std::fabs(sense * joint.offset - wall.offset) <= round_off * size;
+        if (is_on_wall) return 0.0;
         walls.push_back({ wall.normal, wall.offset });
+    }
     return area_of_polygon(
         part_within(joint.corners.empty() ? square_across(joint, solid) : joint.corners, walls));
 }

@@ -307,8 +307,11 @@ void CellCutter::choose(Near& near, CutAreas& areas)
         section.push_back(place_of(edge));
     const double all = area_of_polygon(section);
     const double part = area_of_polygon(part_within(section, plane_->region));
-    if (closed && !(all > 0.0 && part >= 0.5 * all)) {
-        areas.bridged += part;
+    const Box& box = boxes_[near.cell];
+    const bool is_within =
+        closed ? all > 0.0 && part >= 0.5 * all : is_in_region(0.5 * (box.low + box.high));
+    if (!is_within) {
+        if (closed) areas.bridged += part;
         return;
     }
     near.passed = true;

@@ -239,7 +239,8 @@ FaceOnTheWay read_face(const Building& b, int face)
     const int n = static_cast<int>(vertices.size());
     if (n > most_corners) {
         refuse("make_solid: corners of a face", static_cast<double>(n), "",
-            "must be at most " + std::to_string(most_corners) + "; collapse longer edges");
+            "must be at most " + std::to_string(most_corners)
+                + "; collapse longer edges, or use fewer joints or smaller grains");
     }
     std::vector<Vector> places;
     for (int v : vertices)
