@@ -173,8 +173,9 @@ joints_option = combined(
         type=click.Path(path_type=Path),
         metavar="FILE",
         help="Cut a 2D specimen along the segments of a CSV file x1,y1,x2,y2,name [m], or the "
-        "lines of a map, a .geojson file [m]; a 3D specimen along polygons name,x0,y0,z0,... or "
-        "discs x,y,z,dip,dip_direction,radius,name [m, degree].",
+        "lines of a map, a .geojson file [m]; a 3D specimen along polygons name,x0,y0,z0,..., "
+        "discs x,y,z,dip,dip_direction,radius,name, or whole planes, which have no radius "
+        "[m, degree].",
     ),
     click.option(
         "--name",

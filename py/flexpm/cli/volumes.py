@@ -152,9 +152,15 @@ def volume(file: Path, out: Path, quiet: bool, **options: Any) -> None:
         if value is not None and minerals is None:
             raise InputError(f"minerals-{name} = {value}, is for a second volume; give --minerals")
     if options["watershed"] and labels == "grains":
-        raise InputError("watershed, is for labels of phases; give --labels phases")
+        raise InputError(
+            "watershed = True, must be used with labels of phases; give --labels phases, or leave "
+            "it out"
+        )
     if minerals is not None and labels == "phases":
-        raise InputError("minerals, is for labels of grains; leave out --labels phases")
+        raise InputError(
+            f"minerals = {str(minerals)!r}, must be used with labels of grains; leave it out, or "
+            "give --labels grains"
+        )
     folder = inputs.locked_folder(out)
     with terminal.Progress(quiet) as progress:
         inputs.load_yade()

@@ -32,13 +32,22 @@ from .disc_radii import RADII, Radii
 from .laws import law_of, table_of
 from .lines import check_name
 from .network import SEED, generator_of
-from .planes import DIP, FARTHEST, MOST_PLANES, JointPlane, Vector, disc, normal_of, plane
+from .planes import (
+    DIP,
+    DIRECTION,
+    FARTHEST,
+    MOST_PLANES,
+    JointPlane,
+    Vector,
+    disc,
+    normal_of,
+    plane,
+)
 from .poles import POLES, Poles
 
 #: Intensities P32 [1/m].
 _INTENSITY = Bounds(above=0.0, at_least=1e-6, at_most=1e9)
 _NUMBER = Bounds(at_least=1, at_most=MOST_PLANES)
-_ANGLE = Bounds(at_least=-360.0, at_most=360.0)
 _COORDINATE = Bounds(at_least=-FARTHEST, at_most=FARTHEST)
 #: Room around the box of a specimen, over its sizes: a prism reaches beyond its cylinder [-].
 _BEYOND = 0.05
@@ -249,7 +258,8 @@ class DiscNetwork:
             name = max(expected, key=expected.__getitem__)
             raise InputError(
                 f"network set {name}: planes expected = {expected[name]:.4g}, must be <= "
-                f"{MOST_PLANES} in all sets; use a lower intensity, larger discs or a wider spacing"
+                f"{MOST_PLANES} in all sets; use a lower intensity, larger discs, a lower upper "
+                "cut-off or a wider spacing"
             )
         found = [
             one
@@ -313,7 +323,7 @@ def _planes(where: str, table: Table) -> Planes:
         )
     return Planes(
         require_number(f"{where} dip", table["dip"], DIP, "degree"),
-        require_number(f"{where} dip_direction", table["dip_direction"], _ANGLE, "degree"),
+        require_number(f"{where} dip_direction", table["dip_direction"], DIRECTION, "degree"),
         require_number(f"{where} spacing", table["spacing"], LENGTH, "m"),
         _vector(require_number(f"{where} origin", one, _COORDINATE, "m") for one in origin),
     )

@@ -13,6 +13,7 @@ from ..require import LENGTH, quoted, require_number
 from .lines import check_name
 from .planes import (
     DIP,
+    DIRECTION,
     FARTHEST,
     JointPlane,
     Vector,
@@ -26,7 +27,10 @@ from .planes import (
 #: Columns of discs; whole planes have no radius.
 DISC = ("x", "y", "z", "dip", "dip_direction", "radius", "name")
 PLANE = tuple(column for column in DISC if column != "radius")
-_FORMS = "name,x0,y0,z0,x1,y1,z1,... for polygons, " + ",".join(DISC) + " for discs"
+_FORMS = (
+    f"name,x0,y0,z0,x1,y1,z1,... for polygons, {','.join(DISC)} for discs, {','.join(PLANE)} for "
+    "whole planes"
+)
 
 
 def read(path: Path) -> list[JointPlane]:
@@ -90,10 +94,13 @@ def _row(label: str, number: int, columns: list[str], cells: list[str]) -> Joint
         return polygon(where, name, places)
     centre = (values["x"], values["y"], values["z"])
     dip = require_number(f"{where}: dip", values["dip"], DIP, "degree")
+    direction = require_number(
+        f"{where}: dip_direction", values["dip_direction"], DIRECTION, "degree"
+    )
     if "radius" not in values:
-        return plane(name, centre, dip, values["dip_direction"])
+        return plane(name, centre, dip, direction)
     radius = require_number(f"{where}: radius", values["radius"], LENGTH, "m")
-    return disc(name, centre, normal_of(dip, values["dip_direction"]), radius)
+    return disc(name, centre, normal_of(dip, direction), radius)
 
 
 def _number(where: str, column: str, cell: str) -> float:

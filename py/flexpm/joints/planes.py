@@ -30,7 +30,8 @@ MOST_PLANES = 20_000
 _OFF = 1e-6
 #: Dips [degree].
 DIP = Bounds(at_least=0.0, at_most=90.0)
-_DIRECTION = Bounds(at_least=-360.0, at_most=360.0)
+#: Dip directions [degree].
+DIRECTION = Bounds(at_least=-360.0, at_most=360.0)
 #: Largest distance of a point from the origin along an axis, and largest radius [m].
 FARTHEST = 1e6
 _KEYS = {
@@ -273,7 +274,7 @@ def _shape(name: str, number: int, given: Any) -> JointPlane:
             raise InputError(f"{where}: {key} is missing; give {', '.join(_KEYS[kind])}")
     dip = require_number(f"{where}: dip", given["dip"], DIP, "degree")
     direction = require_number(
-        f"{where}: dip_direction", given["dip_direction"], _DIRECTION, "degree"
+        f"{where}: dip_direction", given["dip_direction"], DIRECTION, "degree"
     )
     label = "point" if kind == "plane" else "centre"
     at = given[label]

@@ -15,9 +15,8 @@ import numpy as np
 from ..arrays import FloatArray
 from ..require import Bounds
 from .laws import Law, number
-from .planes import DIP, normal_of
+from .planes import DIP, DIRECTION, normal_of
 
-_ANGLE = Bounds(at_least=-360.0, at_most=360.0)
 #: Concentrations [-]: 1e4 is a scatter of half a degree.
 _CONCENTRATION = Bounds(at_least=1e-3, at_most=1e4)
 #: Most rounds until the mean pole stays.
@@ -34,7 +33,7 @@ class Poles(Law):
     """
 
     dip: float = number(DIP, "degree")
-    dip_direction: float = number(_ANGLE, "degree")
+    dip_direction: float = number(DIRECTION, "degree")
 
     @property
     def mean(self) -> FloatArray:
@@ -74,12 +73,12 @@ class Fisher(Poles):
         cosine = np.clip(cosine, -1.0, 1.0)
         sine = np.sqrt(1.0 - cosine * cosine)
         around = generator.uniform(0.0, 2.0 * np.pi, count)
-        # down the dip, and along the strike
-        down = np.array(normal_of(self.dip - 90.0, self.dip_direction))
-        strike = np.cross(self.mean, down)
+        # up the dip, and along the strike
+        up = np.array(normal_of(self.dip - 90.0, self.dip_direction))
+        strike = np.cross(self.mean, up)
         found: FloatArray = (
             cosine[:, None] * self.mean
-            + (sine * np.cos(around))[:, None] * down
+            + (sine * np.cos(around))[:, None] * up
             + (sine * np.sin(around))[:, None] * strike
         )
         return upwards(found)
@@ -98,8 +97,8 @@ class PoleStatistics:
     Attributes:
         dip: Dip of the mean plane [degree].
         dip_direction: Its dip direction, 0 to 360 [degree].
-        concentration: Estimate of Fisher's concentration [-]; None for less than three poles, or
-            equal poles.
+        concentration: Estimate of Fisher's concentration [-], too large below about 5, since poles
+            have no sense; None for less than three poles, or equal poles.
     """
 
     dip: float

@@ -483,6 +483,11 @@ SECOND = [
     ),
     (["--minerals", "table.csv", "--minerals-array", "a"], "minerals_array = 'a', is for a second"),
     (["--minerals", "phases.npy", "--minerals-array", "a"], "array = 'a', is for .dream3d"),
+    (
+        ["--minerals", "phases.npy", "--labels", "phases"],
+        "minerals = 'phases.npy', must be used with labels of grains; leave it out",
+    ),
+    (["--watershed"], "watershed = True, must be used with labels of phases; give --labels phases"),
 ]
 
 
