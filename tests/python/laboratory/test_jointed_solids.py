@@ -11,6 +11,7 @@ import pytest
 from scenes import fresh
 
 import flexpm
+from flexpm.cli import main as cli
 
 SIDE, HEIGHT = 0.01, 0.02
 FRICTION = 0.3
@@ -79,12 +80,26 @@ def test_a_run_of_a_jointed_core_has_the_same_bits_on_two_threads():
     found = []
     for threads in (1, 2):
         model = fresh(cut, rock(cohesion=0.0), threads=threads)
-        model.solver.holdEnds()
-        for _ in range(3):
-            model.run(10)
+        rig = flexpm.rig(model)
+        rig.load(flexpm.Loading(kind="waiting", max_strain=1e-3, rate=16.0))
         found.append(model.snapshot())
     assert np.array_equal(found[0].positions, found[1].positions)
-    assert found[0].contact.size == found[1].contact.size
+    assert found[0].point_traction.any()
+    assert np.array_equal(found[0].point_traction, found[1].point_traction)
+
+
+def test_a_specimen_with_minerals_that_a_run_cuts_is_run_again(tmp_path, capsys):
+    """The inputs of the run name the minerals of the file, not those of the parts."""
+    box = flexpm.Specimen.box(0.009, 0.009, 0.012)
+    solid, joints, out = (tmp_path / name for name in ("solid.json", "f.csv", "out"))
+    box.with_minerals([0] * len(box.spheres)).save(solid)
+    joints.write_text("x,y,z,dip,dip_direction,name\n0.0045,0.0045,0.006,30,90,f\n")
+    call = ["run", "uniaxial", "--specimen", str(solid), "--joints", str(joints), "--no-report"]
+    call += ["--set", "joint.f.open=true", "--model", "rigid", "--max-strain", "1e-5", "--quiet"]
+    assert cli.main([*call, "--rate", "16", "--out", str(out)]) in (0, 3)
+    again = ["rerun", str(out), "--quiet", "--out", str(tmp_path / "again")]
+    assert cli.main(again) in (0, 3)
+    assert "the same as in" in capsys.readouterr().out
 
 
 def test_a_specimen_with_joints_needs_their_laws():

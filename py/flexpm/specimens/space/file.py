@@ -68,6 +68,7 @@ _SPEC: dict[str, Rule] = {
     "minerals": or_none(is_text),
     "joints": or_none(is_text),
     "joint_names": or_none(list_of(is_text, 1)),
+    "networks": or_none(list_of(lambda value: isinstance(value, Mapping), 1)),
 }
 
 

@@ -22,7 +22,7 @@ from ...joints.planes import JointPlane, PlanesCut, checked, names_of, require_f
 from ...progress import Progress
 from ...renamed import with_old_names
 from ...require import require_flag
-from ..kernel_input import call, checksum, mineral_indices
+from ..kernel_input import call, checksum, checksums_of_starts, mineral_indices
 from . import cells as of_spheres
 from . import cuts, file
 from .own_cells import OwnCells
@@ -173,6 +173,10 @@ class SolidSpecimen(PlaneOnly):
         spheres = np.array(content["spheres"], dtype=float)
         of_spheres.require_made_from(spec, spheres, content["removed_spheres"])
         own = OwnCells.of_file(content)
+        if spec.networks:
+            from ...joints.disc_network import DiscNetwork
+
+            [*map(DiscNetwork.of, spec.networks)]
         planes = tuple(map(JointPlane.from_json, content.get("planes", ())))
         if (None if not planes else names_of(planes)) != spec.joint_names:
             raise InputError(
@@ -181,7 +185,9 @@ class SolidSpecimen(PlaneOnly):
         whole, spheres, cells = _cut(spheres, own, spec, planes)
         minerals = content.get("minerals")
         given = None if minerals is None else mineral_indices(minerals, len(spheres))
-        if (None if given is None else checksum(given)) != spec.minerals:
+        # those of the grains before joints cut them, or of some of their parts
+        named = [None] if given is None else checksums_of_starts(given, len(whole))
+        if spec.minerals not in [*named]:
             raise InputError(
                 f"specimen = {str(path)!r}, has other minerals than it names; save it again"
             )
@@ -232,7 +238,8 @@ class SolidSpecimen(PlaneOnly):
 
         Raises:
             InputError: for a shape that is not plane, not convex or without area, a disc smaller
-                than a grain, and if no plane cuts anything.
+                than a grain, parts of a grain with different minerals, and if no plane cuts
+                anything.
 
         Example:
             >>> cut = solid.with_joints(
@@ -307,14 +314,13 @@ class SolidSpecimen(PlaneOnly):
     def _cut_by(self, planes: Sequence[JointPlane], network: Table | None = None) -> SolidSpecimen:
         """Return the specimen cut by checked planes, the table of whose network may be given."""
         require_size(planes, self.mean_diameter)
+        before = self._whole_minerals()
         every = (*self.planes, *planes)
         require_few(every)
         spec = self.spec.with_joints(planes, network)
         whole, spheres, cells = _cut(self.whole_spheres, self.given, spec, every)
-        before = self._whole_minerals()
         minerals = None if before is None else before[cells.sphere_of_cell]
         if minerals is not None:
-            spec = dataclasses.replace(spec, minerals=checksum(minerals))
             minerals.setflags(write=False)
         found = dataclasses.replace(
             self,
@@ -335,11 +341,22 @@ class SolidSpecimen(PlaneOnly):
         return found
 
     def _whole_minerals(self) -> IntArray | None:
-        """Mineral of each grain before joints cut them."""
+        """Mineral of each grain before joints cut them.
+
+        Raises:
+            InputError: if parts of one grain have different minerals.
+        """
         if self.minerals is None or self.grains is None:
             return self.minerals
         # whole grains and first parts come first, in the order of the spheres
-        return self.minerals[: len(self.whole_spheres)]
+        found = self.minerals[: len(self.whole_spheres)]
+        mixed = np.flatnonzero(self.minerals != found[self.grains])
+        if mixed.size:
+            raise InputError(
+                f"minerals: parts of grain {self.grains[mixed[0]]} have two, must be one before "
+                "more joints; cut first, then with_minerals"
+            )
+        return found
 
     @property
     def whole_spheres(self) -> FloatArray:
