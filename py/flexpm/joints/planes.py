@@ -99,6 +99,10 @@ class PlanesCut:
         beyond: Area of cut grains beyond the edges of discs and polygons.
         detour: True area of contacts off the planes, around grains that are not cut.
         deviation: Largest distance of contacts from their planes [m].
+        crowding: Requested area over the volume of the specimen, P32, times the mean diameter of
+            the grains [-].
+        smallest_disc: Smallest diameter of a disc in the specimen, in mean diameters of the grains
+            [-]; None without discs.
 
     Areas are those before short edges are collapsed.
     """
@@ -113,6 +117,8 @@ class PlanesCut:
     beyond: float
     detour: float
     deviation: float
+    crowding: float = 0.0
+    smallest_disc: float | None = None
 
     def to_json(self) -> Table:
         """As plain values."""

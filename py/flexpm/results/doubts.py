@@ -60,6 +60,10 @@ LARGEST_PEAK_CHANGE = 0.01
 LARGEST_ENERGY_ERROR = 0.01
 #: Share of the length of a joint's lines in the specimen that may lie on earlier joints [-].
 LARGEST_TAKEN = 0.1
+#: Discs of joints below this many mean diameters of the grains have areas that scatter [-].
+SMALLEST_DISC = 1.5
+#: P32 of all joints times the mean diameter, above which too few grains lie between planes [-].
+LARGEST_CROWDING = 0.5
 #: Ratio of a softening length to the length of the rock, or of the mixing rule, without a warning.
 LARGEST_SOFTENING_RATIO = 2.0
 #: Ratio of the mean diameter of grains to that of the calibration without a warning, or its inverse
@@ -473,20 +477,22 @@ def of_first_cracks(
     ]
 
 
-def of_bend(bend: float) -> str:
-    """Warn of the effect on the strength of a joint that deviates from its line (D35).
+def of_bend(bend: float, cuts: Table) -> str:
+    """Warn of the effect on the strength of a joint that deviates from its line or plane (D35).
 
     Args:
-        bend: Largest distance of the joint from its lines [m].
+        bend: Largest distance of the joint from its lines or planes [m].
+        cuts: Result of the cuts of each joint, as in result.json.
     """
+    shape = "plane" if any("planes" in cut for cut in cuts.values()) else "line"
     return (
-        f"joint_deviation = {bend:.3g} m, a joint deviates from its line and interlocks as it "
+        f"joint_deviation = {bend:.3g} m, a joint deviates from its {shape} and interlocks as it "
         "slides; use another seed or smaller grains"
     )
 
 
 def of_cuts(cuts: Table) -> list[str]:
-    """Warn of lines of joints that are not cut, in one line.
+    """Warn of lines of joints that are not cut, in one line, and of planes that are too close.
 
     Args:
         cuts: Result of the cuts of each joint, as in result.json.
@@ -506,7 +512,28 @@ def of_cuts(cuts: Table) -> list[str]:
     if len(found) > _NAMED_JOINTS:
         rest = len(found) - _NAMED_JOINTS
         found = [*found[:_NAMED_JOINTS], f"and {rest} more joints, see joint_cuts"]
-    return [". ".join(found)] if found else []
+    return ([". ".join(found)] if found else []) + _of_small_planes(cuts)
+
+
+def _of_small_planes(cuts: Table) -> list[str]:
+    """Warn of discs that are small for the grains, and of planes that are close for them."""
+    found = []
+    discs = {
+        name: size for name, cut in cuts.items() if (size := cut.get("smallest_disc")) is not None
+    }
+    name = min(discs, key=discs.__getitem__, default="")
+    if discs and discs[name] < SMALLEST_DISC:
+        found.append(
+            f"joint {name}: smallest disc = {discs[name]:.3g} mean diameters, should be at least "
+            f"{SMALLEST_DISC:g}: its area scatters; use larger discs or smaller grains"
+        )
+    crowding = sum(cut.get("crowding", 0.0) for cut in cuts.values())
+    if crowding > LARGEST_CROWDING:
+        found.append(
+            f"P32 times mean diameter = {crowding:.3g}, should be at most {LARGEST_CROWDING:g}; "
+            "use smaller grains or fewer joints"
+        )
+    return found
 
 
 def _of_planes(name: str, cut: Table) -> list[str]:

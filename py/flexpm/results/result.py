@@ -188,7 +188,7 @@ class Result(Shown):
         if kind_of(self.test).rig is Rig.WAVE and self.vp is None and self.vs is None:
             found.append(doubts.NO_PULSE)
         if self.joint_deviation:
-            found.append(doubts.of_bend(self.joint_deviation))
+            found.append(doubts.of_bend(self.joint_deviation, self.joint_cuts or {}))
         found += doubts.of_cuts(self.joint_cuts or {})
         found += doubts.of_clearance(self.largest_clearance or 0.0)
         found += doubts.of_first_cracks(

@@ -77,9 +77,9 @@ class GrainRig(TestRig):
         """Reasons why the record is questionable, see `TestRig.warnings`."""
         record, recorder = self.record, self._recorder
         lines = super().warnings
-        if bend := self.built.joint_deviation:
-            lines.append(doubts.of_bend(bend))
         cuts = {name: cut.to_json() for name, cut in self.built.specimen.told_cuts.items()}
+        if bend := self.built.joint_deviation:
+            lines.append(doubts.of_bend(bend, cuts))
         lines += doubts.of_cuts(cuts)
         lines += doubts.of_gravity(self.built.gravity, self.built.damping)
         if recorder.controlled:

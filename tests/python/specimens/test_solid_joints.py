@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -16,7 +17,8 @@ from flexpm.joints.disc_network import Box, DiscNetwork
 from flexpm.joints.disc_radii import RADII
 from flexpm.joints.planes import JointPlane, disc, normal_of
 from flexpm.joints.poles import Fisher, statistics
-from flexpm.specimens.space import cuts
+from flexpm.results import doubts
+from flexpm.specimens.space import cuts, file
 
 SIDES = (0.012, 0.012, 0.016)
 PLANE = {"point": (0.006, 0.006, 0.008), "dip": 50.0, "dip_direction": 30.0}
@@ -94,6 +96,80 @@ def test_a_jointed_solid_is_saved_and_loaded_with_the_same_bits(box, tmp_path):
     assert np.array_equal(again.cells.vertices, same.cells.vertices)
 
 
+def test_parts_of_two_minerals_are_cut_no_more(box):
+    cut = box.with_joints({"f": PLANE})
+    minerals = np.zeros(len(cut.spheres), dtype=int)
+    again = cut.with_minerals(minerals).with_joints({"g": {**PLANE, "dip": 20.0}})
+    assert (again.minerals == 0).all()
+    minerals[-1] = 1  # a second part
+    refusal(
+        f"minerals: parts of grain {cut.grains[-1]} have two, must be one before more joints",
+        cut.with_minerals(minerals).with_joints,
+        {"g": {**PLANE, "dip": 20.0}},
+    )
+
+
+def test_minerals_of_parts_are_saved_and_loaded(box, tmp_path):
+    cut = box.with_joints({"f": PLANE})
+    minerals = np.arange(len(cut.spheres)) % 2
+    cut.with_minerals(minerals).save(tmp_path / "solid.json")
+    found = flexpm.Specimen.load_solid(tmp_path / "solid.json")
+    assert np.array_equal(found.minerals, minerals)
+
+
+def test_other_minerals_than_those_of_the_inputs_are_refused(box, tmp_path):
+    minerals = np.arange(len(box.spheres)) % 2
+    cut = box.with_minerals(minerals).with_joints({"f": PLANE})
+    dataclasses.replace(cut, minerals=1 - cut.minerals).save(tmp_path / "solid.json")
+    refusal("other minerals than it names", flexpm.Specimen.load_solid, tmp_path / "solid.json")
+
+
+@pytest.mark.parametrize("network", [1, {"seed": 1}, {"seed": -1, "set": discs()["set"]}])
+def test_a_file_with_no_network_is_refused(box, tmp_path, network):
+    cut = box.with_network(discs())
+    content = {
+        "spec": {**dataclasses.asdict(cut.spec), "networks": [network]},
+        "removed_spheres": 0,
+        "planes": [one.to_json() for one in cut.planes],
+        "spheres": cut.whole_spheres.tolist(),
+    }
+    file.write(tmp_path / "solid.json", content)
+    refusal("network", flexpm.Specimen.load_solid, tmp_path / "solid.json")
+
+
+def test_planes_that_are_small_or_close_for_the_grains_are_warned_of(box):
+    """P32 of level planes at a distance h is about 1 / h; of a disc it is its area over V."""
+    grain, volume = box.mean_diameter, math.prod(SIDES)
+    middle = {"centre": (0.006, 0.006, 0.008), "dip": 0.0, "dip_direction": 0.0}
+    radii = [0.7 * grain, 1.2 * grain]
+    far = {**middle, "centre": (1.0, 1.0, 1.0), "radius": 0.6 * grain}
+    cut = box.with_joints({"f": [{**middle, "radius": radius} for radius in radii] + [far]})
+    told = cut.told_cuts["f"]
+    assert told.smallest_disc == pytest.approx(1.4, rel=1e-12)
+    area = math.pi * sum(radius**2 for radius in radii)
+    assert told.crowding == pytest.approx(area / volume * grain, rel=1e-9)
+    found = doubts.of_cuts({"f": told.to_json()})
+    assert "joint f: smallest disc = 1.4 mean diameters, should be at least 1.5" in found[-1]
+
+    def warned(number):
+        places = np.linspace(0.0, SIDES[2], number + 2)[1:-1]
+        planes = [{"point": (0.0, 0.0, z), "dip": 0.0, "dip_direction": 0.0} for z in places]
+        told = box.with_joints({"f": planes}).told_cuts["f"]
+        assert told.smallest_disc is None
+        assert told.crowding == pytest.approx(number * grain / SIDES[2], rel=1e-9)
+        return [one for one in doubts.of_cuts({"f": told.to_json()}) if "P32 times" in one]
+
+    most = int(0.5 * SIDES[2] / grain)
+    assert warned(most) == []
+    assert "should be at most 0.5; use smaller grains" in warned(most + 1)[0]
+
+
+def test_a_joint_off_its_plane_is_named_so(box):
+    cuts_of = {"f": box.with_joints({"f": PLANE}).told_cuts["f"].to_json()}
+    assert "deviates from its plane" in doubts.of_bend(1e-3, cuts_of)
+    assert "deviates from its line" in doubts.of_bend(1e-3, {})
+
+
 def test_cells_of_labels_are_cut_too():
     labels = np.arange(1, 28).reshape(3, 3, 3).repeat(4, 0).repeat(4, 1).repeat(4, 2)
     solid = flexpm.Specimen.from_label_volume(labels, voxel=1e-3, minerals={27: None})
@@ -155,6 +231,7 @@ def test_polygons_discs_and_planes_are_read_from_files(box, tmp_path):
         ("name,x,y,z,dip,dip_direction\na,0,b,0,1,0\n", "line 2, joint 'a': y = 'b'"),
         ("name,x,y,z,dip,dip_direction\n,0,0,0,1,0\n", "must be a name without"),
         ("name,x,y,z,dip,dip_direction\na,0,0,0,-1,0\n", "dip = -1.0 degree, must be >= 0"),
+        ("name,x,y,z,dip,dip_direction\na,0,0,0,1,361\n", "dip_direction = 361.0 degree, must"),
         ("name,x0,y0,z0,x1,y1,z1,x2,y2,z2\na,0,0,0,1,1\n", "numbers = 5, must be three"),
     ],
 )
@@ -195,6 +272,20 @@ def area_in(plane: JointPlane, low, high):
             corners = np.array(kept)
     arms = corners - corners[0]
     return 0.5 * float(np.linalg.norm(np.cross(arms[1:-1], arms[2:]).sum(axis=0)))
+
+
+@pytest.mark.parametrize(
+    ("dip", "direction", "normal"),
+    [
+        (30.0, 90.0, (0.5, 0.0, math.sqrt(0.75))),
+        (30.0, 0.0, (0.0, 0.5, math.sqrt(0.75))),
+        (90.0, 180.0, (0.0, -1.0, 0.0)),
+        (0.0, 77.0, (0.0, 0.0, 1.0)),
+    ],
+)
+def test_dips_are_clockwise_from_y(dip, direction, normal):
+    """Towards x the direction is 90 degrees; the upper normal leans to where the plane dips."""
+    assert normal_of(dip, direction) == pytest.approx(normal, abs=1e-15)
 
 
 @pytest.mark.parametrize("kappa", [5.0, 50.0, 500.0])
@@ -272,7 +363,7 @@ def test_a_disc_has_its_area():
         ({"intensity": -1.0}, "intensity = -1.0 1/m, must be > 0"),
         ({"number": 5}, "must be one of them"),
         ({"size": 5}, "key = 'size'"),
-        ({"intensity": 1e8}, "planes expected = "),
+        ({"intensity": 1e8}, "larger discs, a lower upper cut-off or a wider spacing"),
         ({"radius": {"law": "constant", "value": 1e-5}, "intensity": 1.0}, "radius of disc 0 = "),
         ({"radius": {"law": "uniform", "smallest": 2.0, "largest": 1.0}}, "smallest = 2 m, must"),
         ({"radius": 1.0}, "network set a: radius = 1.0, must be a table"),

@@ -38,19 +38,28 @@ def contact_joints(cells: Polyhedra, planes: Sequence[JointPlane]) -> IntArray |
     return found
 
 
-def outcomes(cells: Polyhedra, planes: Sequence[JointPlane], volume: float) -> dict[str, PlanesCut]:
+def outcomes(
+    cells: Polyhedra, planes: Sequence[JointPlane], volume: float, grain: float
+) -> dict[str, PlanesCut]:
     """Outcome of the cuts of each joint, by its name: areas [m2] as seen along the normals.
 
     Args:
         cells: The cells.
         planes: Planes of the joints, in the order in which they were cut.
         volume: Volume of the specimen [m3].
+        grain: Mean diameter of the grains [m].
     """
     least = _NOTHING * volume ** (2.0 / 3.0)
     found: dict[str, PlanesCut] = {}
     for name in names_of(planes):
-        rows = cells.joint_cuts[[one.name == name for one in planes]]
+        numbers = [number for number, one in enumerate(planes) if one.name == name]
+        rows = cells.joint_cuts[numbers]
         within, cut, taken, bridged, beyond, detour, _ = map(float, rows.sum(axis=0))
+        radii = [
+            radius
+            for number in numbers
+            if (radius := planes[number].radius) is not None and cells.joint_cuts[number, 0] > 0.0
+        ]
         found[name] = PlanesCut(
             planes=len(rows),
             outside=int(np.count_nonzero(rows[:, 0] == 0.0)),
@@ -62,6 +71,8 @@ def outcomes(cells: Polyhedra, planes: Sequence[JointPlane], volume: float) -> d
             beyond=beyond,
             detour=detour,
             deviation=float(rows[:, -1].max()),
+            crowding=within / volume * grain,
+            smallest_disc=2.0 * min(radii) / grain if radii else None,
         )
     return found
 

@@ -483,14 +483,14 @@ class SolidSpecimen(PlaneOnly):
         contacts on them, as seen along their normals. ``p10_x``, ``p10_y`` and ``p10_z`` are the
         mean numbers of generated planes that lines along the axes meet [1/m]. ``planes`` counts
         those in the specimen; ``dip``, ``dip_direction`` and ``concentration`` are of their mean
-        pole.
+        pole; a concentration is too large below about 5.
         """
         return cuts.of_sets(self.cells, self.planes, self.spec.sets, self.spec.volume)
 
     @property
     def told_cuts(self) -> dict[str, PlanesCut]:
         """Outcome of the cuts of each joint, by its name: numbers of planes, and areas [m2]."""
-        return cuts.outcomes(self.cells, self.planes, self.spec.volume)
+        return cuts.outcomes(self.cells, self.planes, self.spec.volume, self.mean_diameter)
 
     @property
     def edge_joints(self) -> IntArray | None:
