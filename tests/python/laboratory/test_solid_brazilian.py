@@ -198,7 +198,9 @@ def test_jaws_bear_on_a_wider_strip_and_change_no_bit_on_threads(small, tmp_path
 
 
 def test_jaws_that_fit_no_disc_are_refused(small):
-    with pytest.raises(InputError, match="jaw_radius = 0.005 m, must be > 0.007 m, the disc's"):
+    with pytest.raises(
+        InputError, match="jaw_radius = 0.005 m, must be > 0.007 m, the radius of the disc"
+    ):
         flexpm.run("brazilian", small, jaw_radius=0.005)
     with pytest.raises(InputError, match="jaw_radius = 100 m, must be > 0.007 m"):
         flexpm.run("brazilian", small, jaw_radius=100.0)

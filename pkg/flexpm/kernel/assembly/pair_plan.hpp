@@ -40,8 +40,10 @@ struct GrainBody {
 struct PairLoad {
     std::vector<int> nodes;
     std::vector<Vector> forces;  ///< of each of the nodes [N]
-    Vector force;                ///< [N]
-    Vector moment;               ///< [N m]
+    /// Of the nodes, those of faces that have never had a contact: masses do not bear them yet.
+    std::vector<int> outer;
+    Vector force;   ///< [N]
+    Vector moment;  ///< [N m]
 };
 
 struct PairWork {

@@ -140,12 +140,14 @@ PairStiffness stiffness_of(const SolidState& s, int number, int side, double are
     return { (2.0 + arm) * all, r * r * arm * (2.0 + arm) * all };
 }
 
-/// Nodes of a pair on a side; the centre of a rigid grain.
+/// Nodes of a side whose masses do not bear a pair yet, as they bear contacts that have ended; the
+/// centre of a rigid grain.
 std::vector<int> pair_nodes(const SolidState& s, int number, int side)
 {
     const int grain = s.pairs[number].grains[side];
-    if (s.grains.is_rigid(grain)) return { s.grains.centre(grain) };
-    return s.plan.pairs.pairs[number].loads[side].nodes;
+    const std::vector<int>& outer = s.plan.pairs.pairs[number].loads[side].outer;
+    if (outer.empty() || !s.grains.is_rigid(grain)) return outer;
+    return { s.grains.centre(grain) };
 }
 
 /// Pairs by the areas that masses have been raised for.
@@ -157,9 +159,10 @@ void add_pairs(const SolidState& s, SolidBound& bound)
         for (int side = 0; side < 2; ++side) {
             const auto number = static_cast<int>(i);
             const PairStiffness k = stiffness_of(s, number, side, s.pairs[i].mass_area);
-            for (int node : pair_nodes(s, number, side))
+            const std::vector<int> nodes = pair_nodes(s, number, side);
+            for (int node : nodes)
                 bound.node[s.grains.scalar_index(node)] += k.node;
-            if (s.is_rigid()) bound.turn[s.pairs[i].grains[side]] += k.turn;
+            if (s.is_rigid() && !nodes.empty()) bound.turn[s.pairs[i].grains[side]] += k.turn;
         }
     }
 }
@@ -304,9 +307,10 @@ bool bear_pairs(SolidState& s, double damping, double dt)
         for (int side = 0; side < 2 && factor > 0.0; ++side) {
             const auto number = static_cast<int>(i);
             const PairStiffness k = stiffness_of(s, number, side, more);
-            for (int node : pair_nodes(s, number, side))
+            const std::vector<int> nodes = pair_nodes(s, number, side);
+            for (int node : nodes)
                 add_mass(s, node, factor * k.node);
-            if (s.is_rigid()) add_inertia(s, pair.grains[side], factor * k.turn);
+            if (s.is_rigid() && !nodes.empty()) add_inertia(s, pair.grains[side], factor * k.turn);
         }
     }
     return any;

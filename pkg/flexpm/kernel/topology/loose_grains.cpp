@@ -13,7 +13,7 @@ namespace flexpm {
 
 namespace {
 
-/// Whether any point of a contact has its bond, or bears pressure.
+/// Whether any point of a contact has its bond, or is closed.
 bool joins(const SolidState& s, int contact)
 {
     const FaceContacts& c = s.contacts;
@@ -21,7 +21,7 @@ bool joins(const SolidState& s, int contact)
     if (!is_cracked_through(c, contact)) return true;
     const std::vector<FacePlace> places = places_of(s, contact);
     for (int p = 0; p < c.points_of(contact); ++p)
-        if (c.area(contact, p) > 0.0 && places[p].opening < 0.0) return true;
+        if (c.area(contact, p) > 0.0 && places[p].opening <= 0.0) return true;
     return false;
 }
 
