@@ -66,6 +66,9 @@ def test_commands_of_the_pages_run(command, tmp_path, monkeypatch):
     if name == "rerun":  # of the run that the page has before it
         size = ["--width", "0.02", "--height", "0.04", "--quiet"]
         assert cli.main(["run", "uniaxial", *size, "--out", "granite"]) == 0
+    if "my-rock-start.toml" in arguments:  # of the command that the page has before it
+        rock = str(ROOT / "scripts/tutorials/sandstone.toml")
+        assert cli.main(["calibrate", "--new", rock, "--out", "my-rock.toml"]) == 0
     quiet = ["--quiet"] if name in ("run", "rerun", "compare", "elastic") else []
     assert cli.main([name, *arguments, *quiet]) == 0
     if "--out" in arguments:

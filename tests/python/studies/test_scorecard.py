@@ -268,7 +268,7 @@ def test_reasons_of_measures_that_do_not_count(change, measure, reason):
 
 def test_grains_that_overlap_spoil_what_follows_the_peak_in_3d():
     run = granite()["confined_30"].result
-    run.largest_overlap = 0.05
+    run.largest_clearance = 0.05
     for solid, spoilt in ((True, {"drop_30", "dilation_30", "dilation_angle_30"}), (False, set())):
         found = runs.values_of(granite(confined_30=Ended(run)), solid=solid)
         assert {name for name, one in found.items() if one.reason == "overlap"} == spoilt
