@@ -268,8 +268,11 @@ TEST_CASE(
         CHECK(std::count_if(whole.pairs.begin(), whole.pairs.end(), presses) > 20);
         CHECK(same_bits::difference(whole, run(s, 2, 0, 200)) == "");
         CHECK(same_bits::difference(whole, run(s, 4, 0, 200)) == "");
-        SolidState saved = same_bits::copy_of_members(run(s, 1, 0, 90));
+        const SolidState until = run(s, 1, 0, 90);
+        SolidState saved = same_bits::copy_of_members(until);
         prepare_step(saved);
+        show_nodes(saved);
+        CHECK(saved.plan.shown_forces == until.plan.shown_forces);
         CHECK(same_bits::difference(whole, run(saved, 1, 90, 200)) == "");
     }
 }

@@ -5,7 +5,7 @@
 
 #include <flexpm/kernel/core/instruction_set.hpp>
 #include <flexpm/kernel/measure/grain_stress.hpp>
-#include <flexpm/kernel/space_lanes/solid_bodies.hpp>
+#include <flexpm/kernel/step/solid_step.hpp>
 
 #include "support/solid_states.hpp"
 

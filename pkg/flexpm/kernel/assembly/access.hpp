@@ -64,6 +64,12 @@ template <class Value> double grain_mean(const Grains& grains, Value value)
     return mean_of(grains.count, value);
 }
 
+/// Mean diameter of the discs or spheres of all grains [m].
+inline double mean_diameter(const Grains& grains)
+{
+    return grain_mean(grains, [&](int g) { return 2.0 * grains.radius[g]; });
+}
+
 /// Call visit(index) for each component of each node of a grain.
 template <class Visit> void for_each_component(const Grains& grains, int grain, Visit visit)
 {

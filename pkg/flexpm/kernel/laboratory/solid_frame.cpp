@@ -35,17 +35,12 @@ double end_force(const SolidState& s, SolidSide side)
     return plate >= 0 ? s.plates[plate].force.z : holding_force(s, side_nodes(s, side), z_axis);
 }
 
-double mean_diameter(const SolidState& s)
-{
-    return grain_mean(s.grains, [&](int g) { return 2.0 * s.grains.radius[g]; });
-}
-
 /// Axial strain between bands of grain centres.
 double centre_strain(const SolidState& s)
 {
     const double bottom = mean_on(s, s.grains.reference, SolidSide::bottom);
     const double height = mean_on(s, s.grains.reference, SolidSide::top) - bottom;
-    const double diameter = mean_diameter(s);
+    const double diameter = mean_diameter(s.grains);
     Station stations[2];
     const double at[] = { 0.25 * height, 0.75 * height };
     for (int g = 0; g < s.grains.count; ++g) {
@@ -164,7 +159,7 @@ double lateral_extension(const SolidState& s, const Array<double>& moved)
 /// Growth of the distance between the outermost grains of a disc on both sides along x [m].
 double widening(const SolidState& s)
 {
-    const double reach = mean_diameter(s);
+    const double reach = mean_diameter(s.grains);
     double farthest = 0.0, ways[2] = { 0.0, 0.0 };
     int grains[2] = { 0, 0 };
     const auto place = [&](int g) { return s.grains.reference[s.grains.centre(g)]; };
@@ -192,7 +187,7 @@ double mean_modulus(const SolidState& s)
 {
     const double of_contacts =
         contact_modulus(grain_mean(s.grains, [&](int g) { return own_law(s, g).normal_stiffness; }),
-            mean_diameter(s));
+            mean_diameter(s.grains));
     if (!s.bodies.empty()) return of_contacts;
     return series_modulus(
         grain_mean(s.grains, [&](int g) { return s.grains.elastic[s.grains.material[g]].young; }),

@@ -2,6 +2,7 @@
 #include <flexpm/kernel/measure/solid_overlaps.hpp>
 
 #include <flexpm/kernel/geometry/near_boxes.hpp>
+#include <flexpm/kernel/space_lanes/solid_access.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 
 #include <algorithm>
@@ -63,40 +64,24 @@ AxisBox box_of(const Body& body)
     return { body.centre - reach, body.centre + reach };
 }
 
-/// Pairs whose faces lie on each other, ascending.
-std::vector<GrainPair> mates(const SolidState& s)
-{
-    std::vector<GrainPair> pairs;
-    for (int c = 0; c < s.contacts.count; ++c)
-        if (!s.contacts.has_ended(c)) pairs.push_back(s.contacts.pairs[c]);
-    std::sort(pairs.begin(), pairs.end());
-    return pairs;
-}
-
 /// Depth that no law resists, of a pair that overlaps: all of it without a contact.
 double unresisted(const SolidState& s, const GrainPair& grains, double depth)
 {
-    const auto pair = std::lower_bound(s.pairs.begin(), s.pairs.end(), grains,
-        [](const PairContact& p, const GrainPair& g) { return p.grains < g; });
-    const bool known = pair != s.pairs.end() && pair->grains == grains;
-    return known ? std::clamp(pair->clearance, 0.0, depth) : depth;
+    const int number = pair_number(s, grains);
+    return number < 0 ? depth : std::clamp(s.pairs[number].clearance, 0.0, depth);
 }
 
 }  // namespace
 
 SolidOverlap largest_overlap(const SolidState& s)
 {
-    const int grains = s.grains.count;
     std::vector<Body> bodies;
-    double diameter = 0.0;
-    for (int g = 0; g < grains; ++g) {
-        bodies.push_back(body_of(s, g));
-        diameter += 2.0 * s.grains.radius[g] / grains;
-    }
     std::vector<AxisBox> boxes;
-    for (const Body& body : bodies)
-        boxes.push_back(box_of(body));
-    const std::vector<GrainPair> together = mates(s);
+    for (int g = 0; g < s.grains.count; ++g) {
+        bodies.push_back(body_of(s, g));
+        boxes.push_back(box_of(bodies.back()));
+    }
+    const std::vector<GrainPair> together = mated_pairs(s);
     SolidOverlap result;
     for (const GrainPair& pair : meeting_boxes(boxes)) {
         if (std::binary_search(together.begin(), together.end(), pair)) continue;
@@ -110,6 +95,7 @@ SolidOverlap largest_overlap(const SolidState& s)
         result.depth = depth;
         result.pair = pair;
     }
+    const double diameter = mean_diameter(s.grains);
     result.of_diameter = result.depth / diameter;
     result.clearance /= diameter;
     return result;

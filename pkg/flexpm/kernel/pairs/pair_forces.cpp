@@ -257,9 +257,9 @@ void fade(PairContact& pair, double slid, double before, const LawParameters& la
     pair.friction_energy += less;
 }
 
-void update_pair(SolidState& s, int number, double dt, Room& room)
+/// Update a pair, which may be a copy of that of the state, and its loads in the plan.
+void update_pair(SolidState& s, int number, PairContact& pair, double dt, Room& room)
 {
-    PairContact& pair = s.pairs[number];
     PairWork& work = s.plan.pairs.pairs[number];
     const GrainBody &a = s.plan.pairs.bodies[work.bodies[0]],
                     &b = s.plan.pairs.bodies[work.bodies[1]];
@@ -332,13 +332,31 @@ void update_pairs(SolidState& s, double dt, int thread, int threads)
     thread_local Room room;
     const auto count = static_cast<int>(s.pairs.size());
     for (int i = thread * count / threads; i < (thread + 1) * count / threads; ++i)
-        update_pair(s, i, dt, room);
+        update_pair(s, i, s.pairs[i], dt, room);
 }
 
 void update_pairs(SolidState& s, double dt)
 {
     follow_bodies(s, 0, 1);
     update_pairs(s, dt, 0, 1);
+}
+
+void add_loads_of_pairs(SolidState& s, double* forces)
+{
+    Room room;
+    for (std::size_t i = 0; i < s.pairs.size(); ++i) {
+        PairContact pair = s.pairs[i];
+        if (!pair.presses()) continue;
+        update_pair(s, static_cast<int>(i), pair, 0.0, room);
+        for (const PairLoad& load : s.plan.pairs.pairs[i].loads) {
+            for (std::size_t k = 0; k < load.nodes.size(); ++k) {
+                double* force = forces + load.nodes[k];
+                force[0] += load.forces[k].x;
+                force[1] += load.forces[k].y;
+                force[2] += load.forces[k].z;
+            }
+        }
+    }
 }
 
 void add_pair_forces(SolidState& s, int block)

@@ -91,16 +91,6 @@ void end_contact(SolidState& s, int contact, const FaceLoad& load)
     s.ledger.removed_friction += load.friction;
 }
 
-/// Pairs whose faces still lie on each other, ascending.
-std::vector<GrainPair> mates(const SolidState& s)
-{
-    std::vector<GrainPair> pairs;
-    for (int c = 0; c < s.contacts.count; ++c)
-        if (!s.contacts.has_ended(c)) pairs.push_back(s.contacts.pairs[c]);
-    std::sort(pairs.begin(), pairs.end());
-    return pairs;
-}
-
 /// Stored in pairs, and dissipated by them [J].
 double energy_of(const std::vector<PairContact>& pairs)
 {
@@ -108,11 +98,6 @@ double energy_of(const std::vector<PairContact>& pairs)
     for (const PairContact& p : pairs)
         sum += p.elastic_energy + p.friction_energy;
     return sum;
-}
-
-double mean_diameter(const Grains& grains)
-{
-    return 2.0 * grain_mean(grains, [&](int g) { return grains.radius[g]; });
 }
 
 /// Box around a grain, and half of the distance within which others are near.
@@ -177,7 +162,7 @@ std::vector<GrainPair> near_pairs(const SolidState& s)
         grains.push_back(g);
         boxes.push_back(box_around(s, g, margin));
     }
-    const std::vector<GrainPair> together = mates(s);
+    const std::vector<GrainPair> together = mated_pairs(s);
     std::vector<GrainPair> pairs;
     for (const auto& [i, k] : meeting_boxes(boxes)) {
         const GrainPair pair { grains[i], grains[k] };
@@ -281,13 +266,13 @@ double clearance_of(SpaceOverlap& overlap, const ContactBody& a, const ContactBo
 void take_over(SolidState& s, int contact, const FaceLoad& load)
 {
     const GrainPair grains = s.contacts.pairs[contact];
-    const auto pair = std::lower_bound(s.pairs.begin(), s.pairs.end(), grains,
-        [](const PairContact& p, const GrainPair& g) { return p.grains < g; });
-    if (pair == s.pairs.end() || pair->grains != grains) return;
+    const int number = pair_number(s, grains);
+    if (number < 0) return;
+    PairContact* const pair = &s.pairs[number];
     const LawParameters& law = s.contacts.law_of(contact);
     pair->law = s.contacts.law[contact];
     pair->face = contact;
-    const PairWork& work = s.plan.pairs.pairs[pair - s.pairs.begin()];
+    const PairWork& work = s.plan.pairs.pairs[number];
     const auto body = [&](int k) { return s.plan.pairs.bodies[work.bodies[k]].view(); };
     thread_local SpaceOverlap overlap;
     pair->clearance = clearance_of(overlap, body(0), body(1),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/space_lanes/solid_access.hpp>
 
+#include <algorithm>
+
 namespace flexpm {
 
 std::vector<Vector> middle_face(const SolidState& s, int contact, double factor)
@@ -88,6 +90,23 @@ bool is_cracked_through(const FaceContacts& c, int contact)
         if (law::damage(law, state.max_opening, state.shear_damage) < 1.0) return false;
     }
     return true;
+}
+
+std::vector<GrainPair> mated_pairs(const SolidState& s)
+{
+    std::vector<GrainPair> pairs;
+    for (int c = 0; c < s.contacts.count; ++c)
+        if (!s.contacts.has_ended(c)) pairs.push_back(s.contacts.pairs[c]);
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+int pair_number(const SolidState& s, const GrainPair& grains)
+{
+    const auto pair = std::lower_bound(s.pairs.begin(), s.pairs.end(), grains,
+        [](const PairContact& p, const GrainPair& g) { return p.grains < g; });
+    if (pair == s.pairs.end() || pair->grains != grains) return -1;
+    return static_cast<int>(pair - s.pairs.begin());
 }
 
 FaceTraction traction_of(const FaceContacts& contacts, int contact, int point, FacePlace place)

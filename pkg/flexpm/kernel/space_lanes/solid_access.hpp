@@ -41,6 +41,12 @@ std::vector<FacePlace> places_of(const SolidState& s, int contact);
 /// Whether all bonds of a contact have gone, those of a joint without strength from the start.
 bool is_cracked_through(const FaceContacts& contacts, int contact);
 
+/// Pairs of grains whose faces lie on each other, ascending.
+std::vector<GrainPair> mated_pairs(const SolidState& s);
+
+/// Index of a pair of near grains without a common face; -1: there is none.
+int pair_number(const SolidState& s, const GrainPair& grains);
+
 /// What a point bears at a place, by its state, or where it is.
 FaceTraction traction_of(const FaceContacts& contacts, int contact, int point, FacePlace place);
 FaceTraction traction_of(const SolidState& s, int contact, int point);

@@ -292,21 +292,6 @@ void show_places(SolidState& s)
     }
 }
 
-void show_nodes(SolidState& s)
-{
-    show_places(s);
-    if (!s.plan.forces_behind) return;
-    s.plan.forces_behind = false;
-    Array<double>& forces = s.plan.shown_forces;
-    forces = s.grains.force;
-    add_node_forces(s, forces.data());
-    for (const PairWork& pair : s.plan.pairs.pairs)
-        for (const PairLoad& load : pair.loads)
-            for (std::size_t k = 0; k < load.nodes.size(); ++k)
-                set_space_vector(
-                    forces, load.nodes[k], space_vector(forces, load.nodes[k]) + load.forces[k]);
-}
-
 void write_motion(const BodyMotion& motion, double* to)
 {
     set_row(to + RigidMotionRow::way, motion.way);

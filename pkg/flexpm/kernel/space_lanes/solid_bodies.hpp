@@ -34,12 +34,9 @@ void integrate_body(SolidState& s, int block, const StepOptions& o, StepSums& su
 /// Note that a step has left the nodes of rigid grains behind.
 void leave_nodes_behind(SolidState& s);
 
-/// Put the nodes of rigid grains where these are, if a step has left them behind.
+/// Put the nodes of rigid grains where these are, if a step has left them behind. This writes
+/// nothing that a step reads.
 void show_places(SolidState& s);
-
-/// The same, and sum the forces on them with those of contacts to SolidPlan::shown_forces. Neither
-/// writes anything that a step reads.
-void show_nodes(SolidState& s);
 
 /// Motion of a rigid grain since the reference.
 struct BodyMotion {

@@ -249,4 +249,16 @@ void step(SolidState& s, const StepOptions& options)
     update_node_sets(s, options.dt, options.damping);
 }
 
+void show_nodes(SolidState& s)
+{
+    show_places(s);
+    if (!s.plan.forces_behind) return;
+    s.plan.forces_behind = false;
+    Array<double>& forces = s.plan.shown_forces;
+    forces = s.grains.force;
+    add_node_forces(s, forces.data());
+    require_plan_of_pairs(s);
+    add_loads_of_pairs(s, forces.data());
+}
+
 }  // namespace flexpm

@@ -20,4 +20,8 @@ void find_forces(SolidState& s);
 ///         place or no numbers any more
 void step(SolidState& s, const StepOptions& options);
 
+/// Do what show_places() does, and sum the forces on the nodes of rigid grains with those of contacts
+/// and pairs to SolidPlan::shown_forces. This writes nothing that a step reads.
+void show_nodes(SolidState& s);
+
 }  // namespace flexpm

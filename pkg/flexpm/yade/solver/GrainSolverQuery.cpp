@@ -167,7 +167,7 @@ py::dict GrainSolver::overlaps(Real smallestPart)
 py::dict GrainSolver::pairs()
 {
 	std::vector<std::int32_t> grains, face;
-	std::vector<double>       force, place, normalForce, area, clearance, friction, elastic;
+	std::vector<double>       force, place, normalForce, area, depth, clearance, friction, elastic;
 	const auto                push = [](std::vector<double>& to, const flexpm::Vector& v) { to.insert(to.end(), { v.x, v.y, v.z }); };
 	for (const auto& pair : space.pairs) {
 		grains.insert(grains.end(), pair.grains.begin(), pair.grains.end());
@@ -176,6 +176,7 @@ py::dict GrainSolver::pairs()
 		push(place, pair.place);
 		normalForce.push_back(pair.normal_force);
 		area.push_back(pair.area);
+		depth.push_back(pair.depth);
 		clearance.push_back(pair.clearance);
 		friction.push_back(pair.friction_energy);
 		elastic.push_back(pair.elastic_energy);
@@ -187,6 +188,7 @@ py::dict GrainSolver::pairs()
 	d["position"]        = copied(place, 3);
 	d["normal_force"]    = copied(normalForce, 0);
 	d["area"]            = copied(area, 0);
+	d["depth"]           = copied(depth, 0);
 	d["clearance"]       = copied(clearance, 0);
 	d["friction_energy"] = copied(friction, 0);
 	d["elastic_energy"]  = copied(elastic, 0);
