@@ -19,8 +19,10 @@ import sys
 from pathlib import Path
 
 REFERENCE = Path(__file__).parents[2] / "tests" / "kernel" / "bench" / "instructions.json"
-#: Cubes of polyhedral grains, elastic, and torn so that their points open and slide.
-SOLID_CASES = ("solid", "solid-torn", "solid-rigid", "solid-rigid-torn")
+#: Cubes of polyhedral grains: elastic, torn so that their points open and slide, and parted so that
+#: grains press on others than their neighbours.
+_SOLID_STATES = ("", "-torn", "-parted")
+SOLID_CASES = tuple(f"solid{kind}{state}" for kind in ("", "-rigid") for state in _SOLID_STATES)
 CASES = ("refined", "fan", "rigid", "softening", "joints", *SOLID_CASES)
 TOLERANCE = 0.05
 #: The function whose instructions count, by the class of the state.

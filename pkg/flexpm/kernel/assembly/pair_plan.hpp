@@ -18,6 +18,12 @@ struct BodyFaces {
     std::vector<int> corners;       ///< nodes, counter-clockwise as seen from outside
 };
 
+/// A corner of a body, where three of its planes meet. It exists unless a near plane cuts it off.
+struct BodyCorner {
+    std::array<int, 3> planes;
+    std::vector<int> near;
+};
+
 /// A grain as the convex body behind its faces.
 struct GrainBody {
     int grain = 0;
@@ -27,6 +33,8 @@ struct GrainBody {
     /// Of a rigid grain the same at the reference; empty of others.
     std::vector<ContactPlane> bonded_planes;
     std::vector<Vector> bonded_corners;
+    /// Of a deformable grain, as of the last search for pairs; empty of others.
+    std::vector<BodyCorner> corner_planes;
 
     ContactBody view() const
     {

@@ -56,11 +56,19 @@ void PairOverlap<Geometry>::load(const ContactBody& body, Vector from, double cl
         p.offset -= p.counted ? clearance : 0.0;
     const Vector* points = body.points;
     int count = body.count;
-    // planes that move outwards leave the given points behind
-    if (count == 0 || clearance < 0.0) {
+    // planes that move outwards leave the given points behind: those of a larger body of the same
+    // shape contain it
+    double larger = 1.0;
+    for (int f = 0; f < body.faces && clearance < 0.0; ++f)
+        if (body.planes[f].counted)
+            larger = std::max(larger, planes[which][f].offset / body.planes[f].offset);
+    const bool has_centre = std::all_of(body.planes, body.planes + body.faces,
+        [](const ContactPlane& p) { return p.offset > 0.0; });
+    if (count == 0 || (clearance < 0.0 && !has_centre)) {
         find_corners(planes[which].data(), body.faces, own_corners);
         points = own_corners.data();
         count = static_cast<int>(own_corners.size());
+        larger = 1.0;
     }
     for (ContactPlane& p : planes[which])
         p.offset += dot(p.normal, from);
@@ -70,7 +78,7 @@ void PairOverlap<Geometry>::load(const ContactBody& body, Vector from, double cl
     y[which].resize(padded);
     z[which].resize(padded);
     for (int i = 0; i < padded; ++i) {
-        const Vector at = points[std::min(i, count - 1)] + from;
+        const Vector at = larger * points[std::min(i, count - 1)] + from;
         x[which][i] = at.x;
         y[which][i] = at.y;
         z[which][i] = at.z;

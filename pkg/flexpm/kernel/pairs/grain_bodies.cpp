@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <flexpm/kernel/pairs/grain_bodies.hpp>
 
+#include <flexpm/kernel/pairs/body_corners.hpp>
 #include <flexpm/kernel/space/overlap.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 
@@ -88,10 +89,17 @@ void corners_of(const SolidState& s, const BodyFaces& faces, int face, int grain
         corners.push_back(present_position(s, grain, faces.corners[k]) - centre);
 }
 
-void find_corners(GrainBody& body)
+/// Planes of the faces of a deformable grain.
+void find_planes(const SolidState& s, const BodyFaces& faces, GrainBody& body)
 {
-    thread_local SpaceOverlap overlap;
-    overlap.find_corners(body.planes.data(), static_cast<int>(body.planes.size()), body.corners);
+    thread_local std::vector<Vector> corners;
+    const int first = faces.first[body.grain], end = faces.first[body.grain + 1];
+    for (int f = first; f < end; ++f) {
+        corners_of(s, faces, f, body.grain, body.centre, corners);
+        body.planes[f - first] =
+            InSpace::plane_of(corners.data(), static_cast<int>(corners.size()));
+        body.planes[f - first].counted = is_free(s, faces, f);
+    }
 }
 
 }  // namespace
@@ -143,9 +151,9 @@ GrainBody body_of(const SolidState& s, const BodyFaces& faces, int grain)
             body.planes.push_back(
                 InSpace::plane_of(corners.data(), static_cast<int>(corners.size())));
         }
-        find_corners(body);
+        SpaceOverlap().find_corners(
+            body.planes.data(), static_cast<int>(body.planes.size()), body.bonded_corners);
         body.bonded_planes = body.planes;
-        body.bonded_corners = body.corners;
     }
     follow_grain(s, faces, body);
     return body;
@@ -164,18 +172,14 @@ void follow_grain(const SolidState& s, const BodyFaces& faces, GrainBody& body)
             body.planes[f - first] = { turned(turn, bonded.normal), bonded.offset,
                 is_free(s, faces, f) };
         }
-        for (std::size_t k = 0; k < body.corners.size(); ++k)
-            body.corners[k] = turned(turn, body.bonded_corners[k]);
+        body.corners.clear();
+        for (const Vector corner : body.bonded_corners)
+            body.corners.push_back(turned(turn, corner));
         return;
     }
-    thread_local std::vector<Vector> corners;
-    for (int f = first; f < end; ++f) {
-        corners_of(s, faces, f, grain, body.centre, corners);
-        body.planes[f - first] =
-            InSpace::plane_of(corners.data(), static_cast<int>(corners.size()));
-        body.planes[f - first].counted = is_free(s, faces, f);
-    }
-    find_corners(body);
+    find_planes(s, faces, body);
+    if (body.corner_planes.empty()) body.corner_planes = corners_behind(body.planes);
+    place_corners(body.planes, body.corner_planes, body.corners);
 }
 
 Vector present_position(const SolidState& s, int grain, int node)
