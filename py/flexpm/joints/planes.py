@@ -97,14 +97,14 @@ class PlanesCut:
         taken: Area on contacts of earlier joints.
         bridged: Requested area within grains that bridge the plane.
         beyond: Area of cut grains beyond the edges of discs and polygons.
-        detour: True area of contacts off the planes, around grains that are not cut.
+        detour: True area of contacts with corners off the planes, at grains that are not cut.
         deviation: Largest distance of contacts from their planes [m].
         crowding: Requested area over the volume of the specimen, P32, times the mean diameter of
             the grains [-].
         smallest_disc: Smallest diameter of a disc in the specimen, in mean diameters of the grains
             [-]; None without discs.
 
-    Areas are those before short edges are collapsed.
+    ``taken``, ``bridged`` and ``beyond`` are those before short edges are collapsed.
     """
 
     planes: int

@@ -63,6 +63,22 @@ def test_a_joint_without_strength_slides_at_jaegers_stress():
     assert np.mean(stress) == pytest.approx(jaeger(50.0, 0.0, 5e6), rel=0.01)
 
 
+@pytest.mark.parametrize(
+    ("seed", "dip", "height"),
+    [(1, 40.0, 0.016), (3, 50.0, 0.016), pytest.param(3, 60.0, 0.021, marks=pytest.mark.slow)],
+)
+def test_a_joint_of_a_packed_core_slides_at_jaegers_stress(seed, dip, height):
+    """Corners of grains that the plane does not cut are moved into it: no teeth."""
+    core = flexpm.Specimen.cylinder(0.008, height, seed=seed)
+    cut = core.with_joints({"f": {"point": (0, 0, 0.5 * height), "dip": dip, "dip_direction": 90}})
+    assert cut.joint_deviations() == {"f": 0.0}
+    pressed = {"confinement": 5e6, "rate": 0.5, "max_strain": 6e-4}
+    found = flexpm.run("triaxial", cut, rock(cohesion=0.0), **pressed)
+    stress = found.curve["axial_stress"][found.curve["axial_strain"] > 4.5e-4] - 5e6
+    assert np.mean(stress) == pytest.approx(jaeger(dip, 0.0, 5e6), rel=0.02)
+    assert not any("deviates" in one for one in found.warnings)
+
+
 def test_a_joint_is_as_stiff_as_its_law_says():
     """A level joint is a spring in series with the rock."""
     material = rock(cohesion=2e6)

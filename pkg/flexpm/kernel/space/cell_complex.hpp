@@ -20,6 +20,12 @@ struct CellFace {
     int joint = -1;            ///< joint it lies on, or -1
 };
 
+/// Points p with dot(normal, p) = offset.
+struct WallPlane {
+    Vector normal;  ///< of length 1
+    double offset = 0.0;
+};
+
 /// Cells as their faces: each edge of a cell is in two of its faces.
 struct CellComplex {
     int cells = 0;
@@ -27,6 +33,8 @@ struct CellComplex {
     std::vector<std::vector<int>> walls;  ///< per vertex, those it lies on, in order
     std::vector<CellFace> faces;
     int flanks = std::numeric_limits<int>::max();  ///< walls from this one on are of notches
+    int first_joint = 0;                           ///< wall that is the plane of joint 0
+    std::vector<WallPlane> planes = {};            ///< of each wall, of cells with joints
 };
 
 /// Whether each of the walls `some` is one of `all`; both in order.

@@ -81,6 +81,20 @@ std::vector<Vector> square_across(const JointPlane& joint, const Solid& solid)
     return { on - u - v, on + u - v, on + u + v, on - u + v };
 }
 
+/// Note the planes of all walls: those of the solid, of notches and of joints.
+void set_planes(CellComplex& complex, const Solid& solid, const std::vector<JointPlane>& joints,
+    const std::vector<NotchPlane>& notches)
+{
+    if (joints.empty()) return;
+    for (const Wall& wall : solid.walls)
+        complex.planes.push_back({ wall.normal, wall.offset });
+    for (const NotchPlane& notch : notches)
+        complex.planes.push_back({ { 1.0, 0.0, 0.0 }, notch.x });
+    complex.first_joint = static_cast<int>(complex.planes.size());
+    for (const JointPlane& joint : joints)
+        complex.planes.push_back({ joint.normal, joint.offset });
+}
+
 }  // namespace
 
 double area_within(const JointPlane& joint, const Solid& solid)
@@ -106,6 +120,7 @@ CutCells cut_cells(CellComplex& complex, const Solid& solid, double diameter,
     if (joints.empty() && notches.empty()) return found;
     const double close = zero_edge * diameter;
     const double volume = least_volume * solid.volume / static_cast<double>(complex.cells);
+    set_planes(complex, solid, joints, notches);
     CellCutter cutter(complex, { close, least_depth * diameter, volume, largest_cosine });
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const JointPlane joint = checked(joints[i], i);

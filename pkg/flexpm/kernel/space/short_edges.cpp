@@ -20,6 +20,9 @@ constexpr double noise = 1e-3;
 /// degrees.
 constexpr double cosine_limit = 0.99939082701909573;
 
+/// Sine of the smallest angle of planes that meet in a line or point to which a vertex is moved.
+constexpr double least_sine = 0.05;
+
 class Collapser {
 public:
     Collapser(CellComplex& c, const std::vector<Vector>& centres_, double threshold_) :
@@ -43,6 +46,9 @@ public:
         limit = noise * threshold;
         collapse_all();
         limit = threshold;
+        flatten_joints();
+        collapse_all();
+        flatten_joints();
         collapse_all();
         auto& faces = complex.faces;
         faces.erase(std::remove_if(faces.begin(), faces.end(),
@@ -81,6 +87,143 @@ private:
                 if (is_edge(u, v) && length(u, v) == length_then) collapse(u, v);
             }
         } while (any);
+    }
+
+    /// Move corners of joints into the planes of their joints where the shapes of cells allow it:
+    /// to a corner in the plane at the other end of an edge, or else to the nearest point.
+    void flatten_joints()
+    {
+        if (complex.planes.empty()) return;
+        do {
+            any = false;
+            std::vector<std::pair<int, int>> off;  // vertex, wall
+            for (const CellFace& face : complex.faces) {
+                if (face.joint < 0) continue;
+                const int wall = complex.first_joint + face.joint;
+                for (std::size_t k = 0; k < face.corners.size(); ++k) {
+                    const int a = face.corners[k], b = face.corners[(k + 1) % face.corners.size()];
+                    if (!is_on(a, wall)) off.emplace_back(a, wall);
+                    if (is_on(a, wall) != is_on(b, wall))
+                        queue.emplace(length(a, b), std::min(a, b), std::max(a, b));
+                }
+            }
+            while (!queue.empty()) {
+                const auto [length_then, u, v] = *queue.begin();
+                queue.erase(queue.begin());
+                if (is_edge(u, v) && length(u, v) == length_then) collapse(u, v);
+            }
+            std::sort(off.begin(), off.end());
+            off.erase(std::unique(off.begin(), off.end()), off.end());
+            for (const auto& [v, wall] : off)
+                if (!faces_at[v].empty()) move_onto(v, wall);
+            if (!any) move_together(off);
+        } while (any);
+    }
+
+    bool is_on(int v, int wall) const
+    {
+        const auto& walls = complex.walls[v];
+        return std::binary_search(walls.begin(), walls.end(), wall);
+    }
+
+    /// Move a vertex to the nearest point of its walls on one more.
+    void move_onto(int v, int wall)
+    {
+        auto& walls = complex.walls[v];
+        std::vector<int> all = walls;
+        all.insert(std::lower_bound(all.begin(), all.end(), wall), wall);
+        std::vector<Vector> targets(1);
+        if (!is_point_on(all, complex.vertices[v], targets[0])) return;
+        Collapse c { v, v, faces_at[v], {} };
+        Vector sum;
+        int count = 0;
+        for (int f : c.touched) {
+            const auto& corners = complex.faces[f].corners;
+            c.corners.push_back(corners);
+            const auto at = std::find(corners.begin(), corners.end(), v) - corners.begin();
+            const int next = corners[(at + 1) % corners.size()];
+            if (!is_subset(all, complex.walls[next])) continue;
+            sum = sum + complex.vertices[next];
+            ++count;
+        }
+        if (count > 0) targets.push_back((1.0 / count) * sum);
+        for (Vector target : targets) {
+            if (!keeps_shape(c, target)) continue;
+            walls = std::move(all);
+            any = true;
+            return;
+        }
+    }
+
+    /// Move vertices that share faces of a joint onto its wall simultaneously: single moves may turn
+    /// tetrahedra that the move of all of them keeps.
+    void move_together(const std::vector<std::pair<int, int>>& off)
+    {
+        std::set<std::pair<int, int>> left(off.begin(), off.end());
+        while (!left.empty()) {
+            const int wall = left.begin()->second;
+            std::vector<int> group { left.begin()->first };
+            left.erase(left.begin());
+            for (std::size_t k = 0; k < group.size(); ++k)
+                for (int f : faces_at[group[k]]) {
+                    const CellFace& face = complex.faces[f];
+                    if (complex.first_joint + face.joint != wall || face.joint < 0) continue;
+                    for (int v : face.corners)
+                        if (left.erase({ v, wall }) > 0) group.push_back(v);
+                }
+            if (group.size() > 1) move_group(group, wall);
+        }
+    }
+
+    void move_group(const std::vector<int>& group, int wall)
+    {
+        std::vector<Vector> before, targets(group.size());
+        std::vector<std::vector<int>> walls;
+        std::set<int> touched;
+        for (std::size_t k = 0; k < group.size(); ++k) {
+            const int v = group[k];
+            walls.push_back(complex.walls[v]);
+            walls[k].insert(std::lower_bound(walls[k].begin(), walls[k].end(), wall), wall);
+            if (!is_point_on(walls[k], complex.vertices[v], targets[k])) return;
+            before.push_back(complex.vertices[v]);
+            touched.insert(faces_at[v].begin(), faces_at[v].end());
+        }
+        const auto worst = [&] {
+            double found = cosine_limit;
+            for (int f : touched)
+                found = std::max(found, sharpest(complex.faces[f], complex.faces[f].corners));
+            return found;
+        };
+        const double allowed = worst();
+        for (std::size_t k = 0; k < group.size(); ++k)
+            complex.vertices[group[k]] = targets[k];
+        any = worst() <= allowed;
+        for (std::size_t k = 0; k < group.size(); ++k) {
+            if (any)
+                complex.walls[group[k]] = walls[k];
+            else
+                complex.vertices[group[k]] = before[k];
+        }
+    }
+
+    /// Find the point on planes that is nearest to another one; false if there is none.
+    bool is_point_on(const std::vector<int>& walls, Vector from, Vector& found) const
+    {
+        // directions in which the point may move, made orthogonal to the planes before
+        std::vector<Vector> axes;
+        found = from;
+        for (int wall : walls) {
+            const WallPlane& plane = complex.planes[wall];
+            Vector axis = plane.normal;
+            for (const Vector& before : axes)
+                axis = axis - dot(axis, before) * before;
+            const double size = norm(axis);
+            if (axes.size() == 3 || size < least_sine) return false;
+            axis = (1.0 / size) * axis;
+            found = found + ((plane.offset - dot(plane.normal, found)) / size) * axis;
+            axes.push_back(axis);
+        }
+        return true;
     }
 
     double length(int u, int v) const { return norm(complex.vertices[v] - complex.vertices[u]); }

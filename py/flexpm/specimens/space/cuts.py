@@ -51,10 +51,16 @@ def outcomes(
     """
     least = _NOTHING * volume ** (2.0 / 3.0)
     found: dict[str, PlanesCut] = {}
+    if not planes:
+        return found
+    made, off = areas(cells, planes), deviations(cells, planes, grain)
+    bent = _distances(cells, planes, grain) > 0.0
+    around = np.linalg.norm(_area_vectors(cells)[bent], axis=1)
+    detours = np.bincount(cells.joints[bent], around, len(planes))
     for name in names_of(planes):
         numbers = [number for number, one in enumerate(planes) if one.name == name]
         rows = cells.joint_cuts[numbers]
-        within, cut, taken, bridged, beyond, detour, _ = map(float, rows.sum(axis=0))
+        within, _, taken, bridged, beyond, *_ = map(float, rows.sum(axis=0))
         radii = [
             radius
             for number in numbers
@@ -63,14 +69,14 @@ def outcomes(
         found[name] = PlanesCut(
             planes=len(rows),
             outside=int(np.count_nonzero(rows[:, 0] == 0.0)),
-            idle=int(np.count_nonzero((rows[:, 0] > 0.0) & (rows[:, 1] <= least))),
+            idle=int(np.count_nonzero((rows[:, 0] > 0.0) & (made[numbers] <= least))),
             within=within,
-            cut=cut,
+            cut=float(made[numbers].sum()),
             taken=taken,
             bridged=bridged,
             beyond=beyond,
-            detour=detour,
-            deviation=float(rows[:, -1].max()),
+            detour=float(detours[numbers].sum()),
+            deviation=off[name],
             crowding=within / volume * grain,
             smallest_disc=2.0 * min(radii) / grain if radii else None,
         )
@@ -86,16 +92,8 @@ def deviations(cells: Polyhedra, planes: Sequence[JointPlane], grain: float) -> 
         grain: Mean diameter of the grains [m].
     """
     off = np.zeros(len(planes))
-    ends = cells.face_offsets[: cells.contacts + 1]
-    plane_of_corner = np.repeat(cells.joints, np.diff(ends))
-    on = np.flatnonzero(plane_of_corner >= 0)
-    plane_of_corner = plane_of_corner[on]
-    normals = np.array([one.normal for one in planes])
-    offsets = np.array([one.offset for one in planes])
-    places = cells.vertices[cells.face_vertices[on]]
-    along = np.einsum("ij,ij->i", places, normals[plane_of_corner])
-    np.maximum.at(off, plane_of_corner, np.abs(along - offsets[plane_of_corner]))
-    off[off <= _STRAIGHT * grain] = 0.0
+    distances, on = _distances(cells, planes, grain), cells.joints >= 0
+    np.maximum.at(off, cells.joints[on], distances[on])
     return {
         name: float(max(off[k] for k, one in enumerate(planes) if one.name == name))
         for name in names_of(planes)
@@ -104,6 +102,16 @@ def deviations(cells: Polyhedra, planes: Sequence[JointPlane], grain: float) -> 
 
 def areas(cells: Polyhedra, planes: Sequence[JointPlane]) -> FloatArray:
     """Area of the contacts on each plane, as seen along its normal [m2]."""
+    vectors, plane = _area_vectors(cells), cells.joints
+    on = plane >= 0
+    normals = np.array([one.normal for one in planes])
+    seen = np.einsum("ij,ij->i", vectors[on], normals[plane[on]])
+    # a face around a grain may be seen from its other side: the sides of a joint face each other
+    return np.bincount(plane[on], _senses(cells, planes)[on] * seen, len(planes))
+
+
+def _area_vectors(cells: Polyhedra) -> FloatArray:
+    """Area of each contact times its normal [m2]."""
     ends = cells.face_offsets[: cells.contacts + 1]
     face = np.repeat(np.arange(cells.contacts), np.diff(ends))
     corners = cells.face_vertices[: ends[-1]]
@@ -112,15 +120,24 @@ def areas(cells: Polyhedra, planes: Sequence[JointPlane]) -> FloatArray:
     after[last] = ends[:-1]
     first = cells.vertices[cells.face_vertices[ends[:-1]]][face]
     here, there = cells.vertices[corners] - first, cells.vertices[corners[after]] - first
-    vectors = 0.5 * np.cross(here, there)
-    plane = cells.joints[face]
-    on = plane >= 0
-    normals = np.array([one.normal for one in planes])
-    seen = np.einsum("ij,ij->i", vectors[on], normals[plane[on]])
-    # a face around a grain may be seen from its other side: the sides of a joint face each other
-    sign = _senses(cells, planes)[face[on]]
-    found = np.zeros(len(planes))
-    np.add.at(found, plane[on], sign * seen)
+    doubled = np.cross(here, there)
+    found = [0.5 * np.bincount(face, one, cells.contacts) for one in doubled.T]
+    return np.column_stack(found)
+
+
+def _distances(cells: Polyhedra, planes: Sequence[JointPlane], grain: float) -> FloatArray:
+    """Largest distance of the corners of each contact from its plane [m]; 0 for other contacts."""
+    ends = cells.face_offsets[: cells.contacts + 1]
+    face = np.repeat(np.arange(cells.contacts), np.diff(ends))
+    face_on = np.flatnonzero(cells.joints[face] >= 0)
+    face = face[face_on]
+    normals = np.array([one.normal for one in planes])[cells.joints[face]]
+    offsets = np.array([one.offset for one in planes])[cells.joints[face]]
+    places = cells.vertices[cells.face_vertices[face_on]]
+    off = np.abs(np.einsum("ij,ij->i", places, normals) - offsets)
+    off[off <= _STRAIGHT * grain] = 0.0
+    found = np.zeros(cells.contacts)
+    np.maximum.at(found, face, off)
     return found
 
 
