@@ -263,9 +263,12 @@ def _build_solid(
     *,
     dynamic: bool,
     gravity: float,
+    bonded: bool,
 ) -> Model:
     solver = solver_of(specimen, chosen, model)
     solver.damping = damping
+    if not bonded:
+        solver.takeBonds()
     engines = _in_scene(solver, specimen.mean_diameter)
     kinds = mineral_map.minerals_of(specimen, chosen)
     built = SolidModel(
@@ -283,6 +286,7 @@ def build(
     points: int = 3,
     mesh: str = "refined",
     interaction_range: float | None = None,
+    bonded: bool = True,
     threads: int = 1,
     **motion: Unpack[Motion],
 ) -> Model | spheres.SphereModel:
@@ -291,7 +295,7 @@ def build(
     Bodies that the scene already has are kept; its engines are replaced.
 
     Args:
-        specimen: The bonded grains. A 3D specimen takes ``flexible`` or ``rigid`` grains, or YADE's
+        specimen: The grains. A 3D specimen takes ``flexible`` or ``rigid`` grains, or YADE's
             spheres.
         material: Name of a preset, TOML file, or material; None: the default of model and
             dimension.
@@ -302,6 +306,8 @@ def build(
         interaction_range: For ``jcfpm`` and ``cohfrict``, the largest ratio of the distance of two
             disc centres to the sum of their radii at which the discs are bonded, 1 to 2 [-]
             (deviation D61). None: only discs whose cells share an edge are bonded.
+        bonded: False: the grains fit together without bonds. They press on each other and slide
+            with the friction of the material, as after cracking. ``flexible`` or ``rigid`` only.
         threads: Number of threads of a step; results do not depend on it.
         motion: Options of the motion, by these names:
 
@@ -332,6 +338,7 @@ def build(
         dynamic=dynamic,
         gravity=gravity,
         interaction_range=interaction_range,
+        bonded=bonded,
     )
     points = int(points)  # numpy's integers are no integers for the kernel
     damping = local_damping(damping, dynamic=dynamic)
@@ -358,13 +365,17 @@ def build(
     _refuse_second()
     if isinstance(specimen, SolidSpecimen):
         chosen = load_material(material, model, solid=True)
-        built = _build_solid(specimen, chosen, model, damping, dynamic=dynamic, gravity=gravity)
+        built = _build_solid(
+            *(specimen, chosen, model, damping), dynamic=dynamic, gravity=gravity, bonded=bonded
+        )
         built.set_threads(threads)
         return built
     grains = grains_of(specimen, model, points, mesh)
     chosen = fitted(specimen, grains, load_material(material, model), model)
     solver = assembled(grains, chosen)
     solver.damping = damping
+    if not bonded:
+        solver.takeBonds()
     engines = _in_scene(solver, 2.0 * float(np.mean(grains.discs[:, 2])))
     kinds = mineral_map.minerals_of(specimen, chosen)
     built = Model(

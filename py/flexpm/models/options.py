@@ -94,6 +94,7 @@ def check_options(
     dynamic: bool = False,
     gravity: float = 0.0,
     interaction_range: float | None = None,
+    bonded: bool = True,
 ) -> None:
     """Raise InputError for an unknown model, or for an option that it cannot have.
 
@@ -104,10 +105,16 @@ def check_options(
         dynamic: Real masses and time.
         gravity: Acceleration downwards [m/s2].
         interaction_range: Distance up to which spheres are bonded over the sum of their radii [-].
+        bonded: Whether the contacts are bonded at the start.
     """
     require_one_of("build: model", model, MODELS)
     require_whole("build: points", points)
     require_flag("build: dynamic", dynamic)
+    require_flag("build: bonded", bonded)
+    if not bonded and model not in SOLID_MODELS:
+        raise InputError(
+            f"build: bonded = False, must be True for model {model}; use {' or '.join(SOLID_MODELS)}"
+        )
     if interaction_range is not None:
         require_number("build: interaction_range", interaction_range, RANGE)
         if model not in SPHERE_MODELS:

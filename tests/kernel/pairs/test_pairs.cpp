@@ -277,6 +277,29 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("A fast grain is found before it overlaps another", "[pairs]")
+{
+    for (const bool rigid : { false, true }) {
+        SolidState s = cubes(1, 2, rigid);
+        CHECK_FALSE(has_to_search(s, 1.0));
+        move_by(s, { 1 }, { 0.0, 0.0, 0.5 * side }, 50);
+        REQUIRE(s.contacts.has_ended(0));
+        drive_all(s, { 1 }, { 0.0, 0.0, -0.01 * side });
+        int searches = 0;
+        for (int k = 0; k < 51; ++k) {
+            const bool due = has_to_search(s, 1.0);
+            searches += due;
+            if (due) look_for_pairs(s);
+            step(s, { 1.0, 0.0, 1, true });
+        }
+        CAPTURE(rigid, searches);
+        CHECK(searches < 30);
+        REQUIRE(s.pairs.size() == 1);
+        CHECK(s.pairs[0].clearance == 0.0);
+        CHECK(s.pairs[0].presses());
+    }
+}
+
 TEST_CASE("A joint without strength hands over as it slides", "[pairs]")
 {
     for (const bool rigid : { false, true }) {

@@ -433,6 +433,9 @@ struct SolidState : BondedState {
     std::vector<RigidBody> bodies;  ///< of each grain; empty: all deform
     FaceContacts contacts;
     std::vector<PairContact> pairs;  ///< of near grains without a common face, ascending
+    /// Way that a grain may have moved since pairs were searched; negative: no grain can meet
+    /// another [m].
+    double unsearched_way = -1.0;
     SurfaceTriangles surface;
     std::vector<HeldFace> held_faces;
     SolidPlan plan;  ///< derived, never saved
@@ -454,6 +457,7 @@ struct SolidState : BondedState {
         visit("bodies", s.bodies);
         visit("contacts", s.contacts);
         visit("near_pairs", s.pairs);
+        visit("unsearched_way", s.unsearched_way);
         visit("surface", s.surface);
         visit("held_faces", s.held_faces);
     }

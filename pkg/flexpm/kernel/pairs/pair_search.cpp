@@ -140,23 +140,24 @@ struct FreeGrains {
     bool has_free_face(int grain) const { return surface[grain] || ended[grain]; }
     /// Grains of one body whose contacts all last cannot meet.
     bool may_meet(int a, int b) { return ended[a] || ended[b] || bodies.of(a) != bodies.of(b); }
-    bool is_one_body()
+    bool can_meet()
     {
+        if (std::find(ended.begin(), ended.end(), 1) != ended.end()) return true;
         for (std::size_t g = 1; g < surface.size(); ++g)
-            if (bodies.of(static_cast<int>(g)) != bodies.of(0)) return false;
-        return true;
+            if (bodies.of(static_cast<int>(g)) != bodies.of(0)) return true;
+        return false;
     }
 };
 
+/// Largest distance of a box around a grain from the grain [m].
+double box_margin(const SolidState& s) { return 0.5 * near_distance * mean_diameter(s.grains); }
+
 /// Pairs of grains without a common face that are near, ascending.
-std::vector<GrainPair> near_pairs(const SolidState& s)
+std::vector<GrainPair> near_pairs(const SolidState& s, FreeGrains& free)
 {
-    FreeGrains free(s);
-    const auto& ended = free.ended;
-    if (std::find(ended.begin(), ended.end(), 1) == ended.end() && free.is_one_body()) return {};
     std::vector<int> grains;
     std::vector<AxisBox> boxes;
-    const double margin = 0.5 * near_distance * mean_diameter(s.grains);
+    const double margin = box_margin(s);
     for (int g = 0; g < s.grains.count; ++g) {
         if (!free.has_free_face(g)) continue;
         grains.push_back(g);
@@ -324,7 +325,10 @@ bool look_for_pairs(SolidState& s)
         stored += loads.back().pressure_energy + loads.back().shear_energy;
         end_contact(s, contact, loads.back());
     }
-    replace_pairs(s, near_pairs(s));
+    FreeGrains free(s);
+    const bool can_meet = free.can_meet();
+    s.unsearched_way = can_meet ? 0.0 : -1.0;
+    replace_pairs(s, can_meet ? near_pairs(s, free) : std::vector<GrainPair> {});
     prepare_pairs(s);
     stored += energy_of(s.pairs);
     for (std::size_t i = 0; i < parted.size(); ++i)
@@ -334,6 +338,20 @@ bool look_for_pairs(SolidState& s)
     // faces that can be pressed now are one reason why pairs store less
     s.ledger.removed_friction += stored - energy_of(s.pairs);
     return !s.pairs.empty();
+}
+
+bool has_to_search(SolidState& s, double dt)
+{
+    if (s.unsearched_way < 0.0) return false;
+    double largest = 0.0;
+    for (int g = 0; g < s.grains.count; ++g) {
+        const Vector velocity = space_vector(s.grains.velocity, s.grains.centre(g));
+        double speed = norm(velocity);
+        if (s.is_rigid()) speed += s.grains.radius[g] * norm(s.bodies[g].spin);
+        largest = std::max(largest, speed);
+    }
+    s.unsearched_way += dt * largest;
+    return s.unsearched_way > box_margin(s);
 }
 
 void prepare_pairs(SolidState& s)

@@ -18,11 +18,15 @@ namespace flexpm {
 bool has_parted(const SolidState& s, int contact);
 
 /// End the contacts whose faces have parted, search near pairs, and let clearances fall with the
-/// overlap of pairs that do not press. To be called between steps; a saved state goes on with the same
-/// bits if calls come at the same steps.
+/// overlap of pairs that do not press. To be called between steps: after some number of them, and where has_to_search() says so.
 ///
 /// @return  whether there are pairs
 bool look_for_pairs(SolidState& s);
+
+/// Note the motion of a step, and return whether grains may have moved so far that others are near
+/// them now.
+/// @param dt  of the step [s]
+bool has_to_search(SolidState& s, double dt);
 
 /// Derive what a step needs of the pairs, after loading.
 void prepare_pairs(SolidState& s);

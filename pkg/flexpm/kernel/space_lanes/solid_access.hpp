@@ -41,6 +41,12 @@ std::vector<FacePlace> places_of(const SolidState& s, int contact);
 /// Whether all bonds of a contact have gone, those of a joint without strength from the start.
 bool is_cracked_through(const FaceContacts& contacts, int contact);
 
+/// Leave no strength to a point that a load could take: it never counts as a crack.
+inline void take_strength(FaceContacts& contacts, int contact, int point)
+{
+    contacts.set_state(contact, point, FaceRow::shear_damage, 1.0);
+}
+
 /// Pairs of grains whose faces lie on each other, ascending.
 std::vector<GrainPair> mated_pairs(const SolidState& s);
 

@@ -8,6 +8,7 @@
 #include <flexpm/kernel/geometry/disc_checks.hpp>
 #include <flexpm/kernel/step/step_plan.hpp>
 #include <flexpm/kernel/topology/joint_sides.hpp>
+#include <flexpm/kernel/topology/unbonded.hpp>
 
 #include <algorithm>
 #include <array>
@@ -250,13 +251,6 @@ int law_of_edge(Assembly& a, const SharedEdge& e, int edge, const AssemblyOption
     a.contacts.laws.push_back(joint >= 0 ? joint_law(scaled_strength(options.joints[joint], factor))
                                          : make_law(scaled_strength(options.laws[law], factor)));
     return static_cast<int>(a.contacts.laws.size()) - 1;
-}
-
-/// No strength is left that a load could take: such a contact never counts as a crack.
-void crack_from_start(Contacts& contacts, int contact)
-{
-    for (int p = 0; p < contacts.points_of(contact); ++p)
-        take_strength(contacts, contact, p);
 }
 
 /// Eq. 5 holds for whole Laguerre cells, whose edges stand square to the line of the centres.

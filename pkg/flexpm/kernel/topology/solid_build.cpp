@@ -9,6 +9,7 @@
 #include <flexpm/kernel/space/face_triangles.hpp>
 #include <flexpm/kernel/space/fan_meshes.hpp>
 #include <flexpm/kernel/step/solid_masses.hpp>
+#include <flexpm/kernel/topology/unbonded.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -345,14 +346,12 @@ int law_of_face(Building& b, const PolyhedronFace& on, int face)
 }
 
 /// Joints without strength are cracked from the start, and never count as cracks.
-void crack_from_start(Building& b)
+void crack_joints_from_start(Building& b)
 {
     FaceContacts& c = b.state.contacts;
     for (int contact = 0; contact < c.count; ++contact) {
         const int joint = joint_of(b.input, contact);
-        if (joint < 0 || !is_cracked(b.input.joints[joint])) continue;
-        for (int p = 0; p < c.points_of(contact); ++p)
-            c.set_state(contact, p, FaceRow::shear_damage, 1.0);
+        if (joint >= 0 && is_cracked(b.input.joints[joint])) crack_from_start(c, contact);
     }
 }
 
@@ -444,7 +443,7 @@ SolidState make_solid(const Polyhedra& cells, const Solid& solid, const SolidInp
     for (int block = 0; block < s.grains.blocks(); ++block)
         add_tetrahedra(b, s.grains.in_slot[block * lanes]);
     add_contacts(b);
-    crack_from_start(b);
+    crack_joints_from_start(b);
     fit(s.tetrahedra, s.contacts);
     add_surface(b);
     size_ledger(s.ledger, s.grains.blocks());

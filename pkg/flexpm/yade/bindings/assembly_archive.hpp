@@ -41,7 +41,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::SteadyMotion& part, unsigned) { archiveMembers(archive, part); }
 
 	/// Version of what visit_members() lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned assemblyVersion = 28;
+	constexpr unsigned assemblyVersion = 29;
 
 	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned version)
 	{

@@ -79,10 +79,9 @@ void GrainSolver::takeStep()
 void GrainSolver::takeSolidStep()
 {
 	try {
-		if (stepsDone() % checkPeriod == 0) {
-			flexpm::look_for_pairs(space);
-			flexpm::find_loose(space);
-		}
+		const bool due = stepsDone() % checkPeriod == 0;
+		if (flexpm::has_to_search(space, scene->dt) || due) flexpm::look_for_pairs(space);
+		if (due) flexpm::find_loose(space);
 		auto options        = stepOptions();
 		options.leave_nodes = true;
 		flexpm::step(space, options);

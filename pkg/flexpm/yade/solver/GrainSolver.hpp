@@ -110,6 +110,7 @@ public:
 	        vector<Real>             strengths,
 	        py::list                 joints,
 	        vector<int>              contactJoints);
+	void      takeBonds();
 	void      addToScene();
 	void      scaleMasses();
 	Real      useRealMasses();
@@ -195,6 +196,7 @@ public:
 			"Build the bonded, unloaded grains; flexpm.build calls it once. materials: material of each mineral; pairs: material of the contacts between minerals i and j of n, at index i n + j (empty: the material of i); joints: material of the contacts of each joint.")
 		.def("assembleSolid", &GrainSolver::assembleSolid, (py::arg("cells"), py::arg("outline"), py::arg("materials"), py::arg("pairs") = py::list(), py::arg("minerals") = vector<int>(), py::arg("rigid") = false, py::arg("strengths") = vector<Real>(), py::arg("joints") = py::list(), py::arg("contact_joints") = vector<int>()),
 			"Build the bonded, unloaded grains; flexpm.build calls it once. materials: material of each mineral; pairs: material of the contacts between minerals i and j of n, at index i n + j; minerals: mineral of each cell; strengths: factor of the strengths of each contact [-] (empty: all 1).")
+		.def("takeBonds", After<&GrainSolver::requireGrains, &GrainSolver::takeBonds>::call, "Take the strength of all bonds, before the first step: the grains press on each other and slide with friction. This counts as no crack.")
 		.def("addToScene", After<&GrainSolver::requireGrains, &GrainSolver::addToScene>::call, "Make a body of each grain and an interaction of each bond.")
 		.def("scaleMasses", After<&GrainSolver::requireGrains, &GrainSolver::scaleMasses>::call, "Scale the masses for a step of O.dt with the present damping, Sec. 2.4.")
 		.def("useRealMasses", After<&GrainSolver::requireGrains, &GrainSolver::useRealMasses>::call, "Use the real masses, and return the stable time step [s].")

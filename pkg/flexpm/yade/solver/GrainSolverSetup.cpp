@@ -11,6 +11,7 @@
 #include <flexpm/kernel/step/solid_masses.hpp>
 #include <flexpm/kernel/topology/assembly_build.hpp>
 #include <flexpm/kernel/topology/solid_build.hpp>
+#include <flexpm/kernel/topology/unbonded.hpp>
 #include <flexpm/yade/bindings/assembly_input.hpp>
 #include <flexpm/yade/grains/GrainMat.hpp>
 #include <flexpm/yade/grains/LaguerreCell.hpp>
@@ -67,6 +68,12 @@ void GrainSolver::assemble(const flexpm_bindings::AssemblyInput& input, py::list
 	if (!input.outer.empty()) chooseInner(input, o);
 	assembly = flexpm::make_assembly(*input.tessellation, input.discs, o);
 	keepMaterials(ofGrains);
+}
+
+void GrainSolver::takeBonds()
+{
+	if (stepsDone() > 0) flexpm::refuse(getClassName() + ".takeBonds: steps", double(stepsDone()), "", "must be 0; call it before the first step");
+	onState([](auto& state) { flexpm::crack_all_from_start(state); });
 }
 
 void GrainSolver::addToScene()

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from ..._flexpm import FanMeshes, Polyhedra, Solid, fan_meshes
-from ...arrays import FloatArray, IntArray
+from ..._flexpm import FanMeshes, Polyhedra, Solid, fan_meshes, weighted_cells
+from ...arrays import BoolArray, FloatArray, IntArray
 from ...errors import InputError
 from ...files import Table
 from ...joints import plane_files
@@ -25,7 +25,7 @@ from ...require import require_flag
 from ..kernel_input import call, checksum, checksums_of_starts, mineral_indices
 from . import cells as of_spheres
 from . import cuts, file
-from .own_cells import OwnCells
+from .own_cells import SHAPES, OwnCells
 from .plane_only import PlaneOnly
 from .spec import SHORT_EDGE, SIZES, SolidSpec
 
@@ -368,6 +368,52 @@ class SolidSpecimen(PlaneOnly):
         given = mineral_indices(minerals, len(self.spheres))
         spec = dataclasses.replace(self.spec, minerals=checksum(given))
         return dataclasses.replace(self, minerals=given, spec=spec, mineral_names=())
+
+    def without_grains(self, grains: Sequence[int] | IntArray | BoolArray) -> SolidSpecimen:
+        """Return the specimen without some of its grains; the walls of their cells are free.
+
+        Remove grains before joints cut the specimen.
+
+        Args:
+            grains: Numbers of the grains, or for each grain whether it is removed, (n,) bools.
+
+        Returns:
+            The other grains, in their order.
+
+        Raises:
+            InputError: for a number out of range, for a specimen that is not a box, cylinder or
+                disc of Laguerre cells without joints, and if fewer than two grains are left.
+
+        Example:
+            >>> low = solid.without_grains(solid.centres[:, 2] > 0.008)
+            >>> 2 <= len(low.spheres) < len(solid.spheres)
+            True
+        """
+        count = len(self.spheres)
+        given = np.asarray(grains)
+        if given.dtype == bool and given.shape != (count,):
+            raise InputError(f"without_grains: flags = {given.size}, must be {count}, one a grain")
+        numbers = np.flatnonzero(given) if given.dtype == bool else given.astype(int).ravel()
+        if len(numbers) and not 0 <= numbers.min() <= numbers.max() < count:
+            wrong = numbers[(numbers < 0) | (numbers >= count)][0]
+            raise InputError(f"without_grains: grain = {wrong}, must be 0 to {count - 1}")
+        if self.planes or self.given is not None or self.kind not in SHAPES:
+            raise InputError(
+                "without_grains: cells = cut or given, must be Laguerre cells of a box, cylinder "
+                "or disc; remove grains before joints are cut"
+            )
+        removed = np.zeros(count, dtype=bool)
+        removed[numbers] = True
+        if count - removed.sum() < 2:
+            raise InputError(
+                f"without_grains: grains left = {count - removed.sum()}, must be >= 2; remove fewer"
+            )
+        spheres = self.spheres[np.argsort(removed, kind="stable")]
+        points = np.ascontiguousarray(spheres[:, :3])
+        cells = call(weighted_cells, points, spheres[:, 3] ** 2, self.outline())
+        own = OwnCells.of_weighted(cells).with_pores(int(removed.sum()))
+        made = SolidSpecimen.of_cells(own, self.kind, self.dimensions, self.spec.short_edge)
+        return made if self.minerals is None else made.with_minerals(self.minerals[~removed])
 
     @property
     def kind(self) -> str:

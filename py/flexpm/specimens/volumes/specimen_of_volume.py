@@ -22,7 +22,7 @@ from ..kernel_input import call
 from ..label_volumes.label_volume import Labels, LabelVolume
 from ..label_volumes.reading import read
 from ..space.frame import SolidFrame
-from ..space.own_cells import OwnCells
+from ..space.own_cells import SHAPES, OwnCells
 from ..space.spec import SHORT_EDGE
 from ..space.specimen import SolidSpecimen
 from . import regions
@@ -31,7 +31,6 @@ from .regions import Kinds, loose_grains
 from .volume_report import compare
 
 _WHERE = "Specimen.from_label_volume"
-SHAPES = ("box", "cylinder", "solid-disc")
 VOLUMES = ("fitted", "exact")
 #: Default of the smallest number of voxels of a region.
 LEAST_VOXELS = 8

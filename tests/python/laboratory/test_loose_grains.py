@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Grains without bonds: blocks on slopes, a column that stands, and one that collapses."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import yade
+from refusals import failure
+
+import flexpm
+
+GRAVITY = 100.0 * 9.81  # so that a test takes a tenth of the time
+FRICTION = 0.5
+PHI = math.atan(FRICTION)
+#: The strengths do not matter to grains without bonds.
+LOOSE = {
+    "normal_stiffness": 1e10,
+    "friction": FRICTION,
+    "tensile_strength": 1e5,
+    "cohesion": 1e5,
+}
+
+
+def rock(model: str, solid: bool = True) -> flexpm.Material:
+    return flexpm.materials.load(None, model, solid=solid).with_set(LOOSE, model)
+
+
+def hold(built: flexpm.Model, where) -> None:
+    """Fix positions and rotations of the grains in a region."""
+    nodes, places = built.solver.nodePlaces(bonded=True)
+    held = built.solver.addNodeSet(nodes[where(*places.T)].tolist())
+    built.solver.turnNodeSet(held, (0.0, 0.0, 0.0))
+    built.set_masses()
+
+
+def middle_of(built: flexpm.Model, grains: np.ndarray, what: str = "pos") -> np.ndarray:
+    """Mean position or velocity of grains."""
+    ids = [built.solver.bodyIds[grain] for grain in np.flatnonzero(grains)]
+    return np.mean([getattr(yade.O.bodies[one].state, what) for one in ids], axis=0)
+
+
+@pytest.mark.parametrize(
+    ("model", "beyond"), [("flexible", 10.0), ("rigid", 10.0), ("rigid", -1.0)]
+)
+def test_a_block_slides_on_a_3d_joint_as_coulomb_says_or_not_at_all(model, beyond):
+    """Way since damping ended, less v0 t, against a t^2 / 2; a = g sin(dip - phi) / cos(phi)."""
+    yade.O.reset()
+    dip, width, low = PHI + math.radians(beyond), 0.012, 0.003
+    slope = math.tan(dip)
+    whole = flexpm.Specimen.box(width, 0.006, low + width * slope + 5e-3, diameters=(2.8e-3, 3e-3))
+    plane = {"point": (0.0, 0.0, low), "dip": math.degrees(dip), "dip_direction": 270.0}
+    values = {"normal_stiffness": 1e12, "shear_stiffness": 1e12, "friction": FRICTION}
+    joint = {f"joint.slope.{key}": value for key, value in values.items()}
+    material = flexpm.materials.load(None, model, solid=True).with_set(joint, model)
+    cut = whole.with_joints({"slope": plane})
+    built = flexpm.build(cut, material, model, dynamic=True, gravity=GRAVITY, damping=0.3)
+    block = cut.centres[:, 2] > low + slope * cut.centres[:, 0]
+    hold(built, lambda x, y, z: z < low + slope * x - 1e-6)
+    down = np.array([-math.cos(dip), 0.0, -math.sin(dip)])
+    built.run(9000 if model == "rigid" else 4000)
+    built.damping = 0.0 if beyond > 0.0 else 0.3
+    start, speed = middle_of(built, block) @ down, middle_of(built, block, "vel") @ down
+    way = 1e-4  # contacts hand over to pairs after some hundredths of a millimetre
+    gain = GRAVITY * math.sin(dip - PHI) / math.cos(PHI)
+    steps = math.ceil(math.sqrt(2.0 * way / abs(gain)) / yade.O.dt)
+    built.run(steps)
+    time = steps * yade.O.dt
+    slid = middle_of(built, block) @ down - start
+    if beyond < 0.0:
+        assert abs(slid) < 1e-8
+    else:
+        assert len(built.solver.pairs()["grains"]) > 10
+        assert slid - speed * time == pytest.approx(0.5 * gain * time**2, rel=0.03)
+
+
+@pytest.fixture(scope="module")
+def column() -> flexpm.SolidSpecimen:
+    """Grains on a floor that is wider than they are."""
+    whole = flexpm.Specimen.box(0.036, 0.01, 0.02, diameters=(3.5e-3, 4.5e-3), seed=1)
+    x, _, z = whole.centres.T
+    return whole.without_grains((z > 4e-3) & (np.abs(x - 0.018) > 6e-3))
+
+
+def test_a_column_without_bonds_collapses_and_keeps_its_energy(column):
+    yade.O.reset()
+    built = flexpm.build(
+        column, rock("rigid"), "rigid", dynamic=True, gravity=GRAVITY, bonded=False
+    )
+    hold(built, lambda x, y, z: z < 4e-3)
+    free = column.centres[:, 2] > 4e-3
+    before = middle_of(built, free)
+    built.run(8000)
+    energies = built.solver.energies()
+    fallen = middle_of(built, free) - before
+    assert fallen[2] < -1e-3
+    ids = [built.solver.bodyIds[grain] for grain in np.flatnonzero(free)]
+    x = np.array([yade.O.bodies[one].state.pos[0] for one in ids])
+    assert np.ptp(x) > np.ptp(column.centres[free, 0]) + 2e-3
+    assert energies["friction_energy"] > 0.05 * -energies["potential_energy"]
+    assert sum(energies.values()) == pytest.approx(0.0, abs=0.02 * -energies["potential_energy"])
+    assert built.solver.cracks() == (0, 0)
+    assert built.largest_clearance < 0.02
+
+
+@pytest.mark.parametrize("solid", [False, True], ids=["plane", "space"])
+@pytest.mark.parametrize("model", ["flexible", "rigid"])
+def test_contacts_without_bonds_press_and_do_not_pull(solid, model, column):
+    """Two halves of a specimen that are pulled apart, and pushed on each other."""
+    specimen = (
+        flexpm.Specimen.box(0.008, 0.008, 0.012)
+        if solid
+        else flexpm.Specimen.rectangle(0.01, 0.02, thickness=0.01, seed=1)
+    )
+    forces = {}
+    for bonded in (True, False):
+        for sign in (-1.0, 1.0):
+            yade.O.reset()
+            material = flexpm.materials.load(None, model, solid=solid)
+            built = flexpm.build(specimen, material, model, bonded=bonded)
+            rig = flexpm.PartRig(built)
+            up = np.array([0.0, 0.0, 1.0] if solid else [0.0, 1.0])
+            height = specimen.extent["height"]
+            low = rig.hold(where=lambda *at: at[-1] < 0.3 * height)
+            high = rig.hold(where=lambda *at: at[-1] > 0.7 * height)
+            rig.settle()
+            high.move(tuple(sign * 1e-9 * height * up))
+            built.run(400)
+            forces[bonded, sign] = -sign * float(np.dot(high.force, up))
+            assert built.solver.cracks() == (0, 0)
+            del low
+    assert forces[True, 1.0] == pytest.approx(forces[True, -1.0], rel=0.1)
+    assert forces[False, -1.0] > 0.3 * forces[True, -1.0]
+    assert abs(forces[False, 1.0]) < 0.02 * forces[True, 1.0]
+
+
+def test_removed_grains_leave_the_volume_and_the_faces_of_the_others(column):
+    whole = flexpm.Specimen.box(0.036, 0.01, 0.02, diameters=(3.5e-3, 4.5e-3), seed=1)
+    x, _, z = whole.centres.T
+    kept = (z <= 4e-3) | (np.abs(x - 0.018) <= 6e-3)
+    assert len(column.spheres) == kept.sum()
+    same = whole.without_grains(np.flatnonzero(~kept))
+    np.testing.assert_array_equal(same.cells.volumes, column.cells.volumes)
+    # short edges collapse otherwise beside free walls
+    np.testing.assert_allclose(column.cells.volumes, whole.cells.volumes[kept], rtol=0.05)
+    assert column.cells.volumes.sum() == pytest.approx(whole.cells.volumes[kept].sum(), rel=5e-3)
+
+
+def test_removed_grains_keep_the_minerals_of_the_others_in_files(tmp_path):
+    whole = flexpm.Specimen.box(0.008, 0.008, 0.012).with_minerals(np.arange(44) % 2)
+    left = whole.without_grains([0, 3])
+    assert left.minerals.tolist() == [k % 2 for k in range(44) if k not in (0, 3)]
+    left.save(tmp_path / "left.json")
+    again = flexpm.Specimen.load_solid(tmp_path / "left.json")
+    np.testing.assert_array_equal(again.cells.volumes, left.cells.volumes)
+
+
+def test_what_cannot_be_done_is_refused(column):
+    whole = flexpm.Specimen.box(0.008, 0.008, 0.012)
+    plane = {"point": (0.004, 0.004, 0.006), "dip": 30.0, "dip_direction": 0.0}
+    cut = whole.with_joints({"a": plane})
+    assert "grain = 44, must be 0 to 43" in failure(None, whole.without_grains, [44])
+    assert "flags = 3, must be 44" in failure(None, whole.without_grains, [True, False, True])
+    assert "grains left = 1, must be >= 2" in failure(None, whole.without_grains, range(43))
+    for given in (cut, column):
+        assert "cells = cut or given" in failure(None, given.without_grains, [0])
+    refused = "bonded = False, must be True for model jcfpm"
+    assert refused in failure(None, flexpm.build, whole, None, "jcfpm", bonded=False)
