@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from drawn_volumes import power_volume, unions
+from drawn_volumes import bent_with_fragments, power_volume, unions
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from refusals import refusal
@@ -89,6 +89,15 @@ def test_grains_that_are_not_convex_get_the_best_cells(largest, least):
     # no grain pays for the gain of the others
     assert totals["grains_below_start"] == 0 and len(labels) == totals["grains"]
     assert (agreement >= np.array(fit.columns["start_agreement"])).all()
+
+
+def test_small_grains_at_boundaries_of_large_ones_keep_their_cells():
+    """As in recrystallised metals: the boundaries of large grains pay better than small grains."""
+    labels = bent_with_fragments(power_volume(20, (32, 32, 32), seed=2), 60, seed=1)
+    fit = made(labels).fit
+    assert fit.totals["grains_below_start"] == 0
+    assert fit.totals["agreement"] > fit.totals["start_agreement"] + 0.015
+    assert not fit.totals["lost_grains"]
 
 
 def test_a_grain_within_another_is_named():

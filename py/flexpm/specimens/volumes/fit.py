@@ -30,9 +30,14 @@ Scores = tuple[FloatArray, FloatArray]
 _TEMPERATURES = (1.0, 0.25, 0.0625)
 #: Most voxels of a region in the fit: at its boundary, and of every tenth one inside.
 _MOST_AT_BOUNDARY, _MOST_INSIDE, _TENTH = 400, 100, 10
-#: Rounds of larger weights of regions that lost this share of their voxels against the start [-],
-#: and the factor on their weights.
-_ROUNDS, _LOST, _WEIGHT = 3, 0.01, 1.5
+#: Most rounds of larger weights of regions that lost this share of their voxels against the start
+#: [-], and the factor on their weights.
+_ROUNDS, _LOST, _WEIGHT = 12, 0.01, 2.0
+#: Rounds in a row without fewer such regions, after which no further round follows.
+_PATIENCE = 3
+#: Failed raises, and agreement below the best one [-], after which no further result is raised.
+#: Results that are less behind are as good if they have more of the cells.
+_FAILED, _BEHIND = 2, 0.01
 #: Most raises of a level for each region in the mean; volumes of 60 to 90 grains need up to 16.
 _RAISES = 50
 #: Shares of the start in mixtures that are tried if no fit can be raised [-].
@@ -167,10 +172,10 @@ def fit(grid: Grid, progress: Progress | None = None, *, exact: bool = False) ->
     """Fit a power cell to each region of a grid.
 
     The start has the centroids and the radii of the regions. Three stages of a softer to a sharper
-    fit follow, and up to three rounds in which regions that lost voxels against the start have a
-    larger weight. In each result the levels are raised until no region has fewer voxels in its
-    cell than at the start. The result with most voxels in the cells of their regions is taken, the
-    start included.
+    fit follow. Then rounds follow in which regions that lost voxels against the start, or all of
+    them, have a larger and larger weight. Levels are raised until no region has fewer voxels in
+    its cell than at the start. The result with most voxels in the cells of their regions is taken,
+    the start included, or one with nearly as many in which fewer regions have no voxel.
 
     Args:
         grid: The regions, two or more.
@@ -185,20 +190,12 @@ def fit(grid: Grid, progress: Progress | None = None, *, exact: bool = False) ->
         InputError: if a region loses its cell and volumes are to be exact.
     """
     problem = _Problem.of(grid)
-    start = best = problem.start()
-    here, scores = start, start.scores
-    for stage, width in enumerate(_TEMPERATURES, start=1):
-        if progress is not None:
-            progress(stage - 1, len(_TEMPERATURES), f"fit of {grid.count} cells, stage {stage}")
-        trial = problem.fitted(scores, width, str(stage))
-        scores = trial.scores
-        here = max(here, trial, key=_agreement)
-        best = max(best, problem.raised(trial, start), key=_agreement)
-    for trial in _rounds(problem, start, here):
-        best = max(best, problem.raised(trial, start), key=_agreement)
-    for share in _MIXTURES if best is start and here is not start else ():
-        trial = problem.mixture(here, start, share)
-        best = max(best, problem.raised(trial, start), key=_agreement)
+    start = problem.start()
+    trials = list(_trials(problem, start, progress))
+    best = _best_raised(problem, start, trials)
+    if best is start and max(trials, key=_agreement).agreement > start.agreement:
+        mixtures = [problem.mixture(trials[-1], start, share) for share in _MIXTURES]
+        best = _best_raised(problem, start, mixtures)
     if exact:
         best = _with_volumes(problem, best)
     return Fitted(best, start)
@@ -208,16 +205,52 @@ def _agreement(trial: Trial) -> float:
     return trial.agreement
 
 
-def _rounds(problem: _Problem, start: Trial, best: Trial) -> Iterator[Trial]:
-    """Fit with more and more weight of the regions that agree less than at the start."""
-    factors, here = np.ones(problem.grid.count), best
+def _trials(problem: _Problem, start: Trial, progress: Progress | None) -> Iterator[Trial]:
+    """Fit in stages, then with more and more weight of the regions that lost their voxels."""
+    cells = f"fit of {problem.grid.count} cells"
+    steps = len(_TEMPERATURES) + 1
+    here, scores = start, start.scores
+    for stage, width in enumerate(_TEMPERATURES, start=1):
+        if progress is not None:
+            progress(stage - 1, steps, f"{cells}, stage {stage}")
+        trial = problem.fitted(scores, width, str(stage))
+        scores = trial.scores
+        here = max(here, trial, key=_agreement)
+        yield trial
+    factors, fewest, vain = np.ones(problem.grid.count), problem.grid.count, 0
     for number in range(1, _ROUNDS + 1):
-        lost = start.own - here.own > _LOST
-        if here is start or not lost.any():
+        lost = (start.own - here.own > _LOST) | (here.own == 0.0)
+        vain = 0 if lost.sum() < fewest else vain + 1
+        fewest = min(fewest, int(lost.sum()))
+        if here is start or not lost.any() or vain == _PATIENCE:
             return
+        if progress is not None:
+            progress(steps - 1, steps, f"{cells}, {lost.sum()} worse than at first, round {number}")
         factors[lost] *= _WEIGHT
         here = problem.fitted(here.scores, _TEMPERATURES[-1], f"guard {number}", factors)
         yield here
+
+
+def _best_raised(problem: _Problem, start: Trial, trials: list[Trial]) -> Trial:
+    """Return the best of the trials once they are raised, or the start.
+
+    The last trial comes first, as it is the nearest to the start, region by region. The search ends
+    when raises fail, which takes longest, or when trials are well behind the best one. Of trials
+    that are not well behind, the one with fewest regions without a voxel is taken.
+    """
+    found, failed, most = [start], 0, start.agreement
+    for trial in reversed(trials):
+        raised = problem.raised(trial, start)
+        if raised is start:
+            failed += 1
+        elif raised.agreement < most - _BEHIND:
+            break
+        found.append(raised)
+        most = max(most, raised.agreement)
+        if failed == _FAILED:
+            break
+    near = [trial for trial in found if trial.agreement >= most - _BEHIND]
+    return min(near, key=lambda trial: (np.count_nonzero(trial.own == 0.0), -trial.agreement))
 
 
 @dataclass(frozen=True, eq=False)

@@ -83,7 +83,7 @@ class VolumeReport:
             "specimen_grains": len(kept),
             "loose_grains": self.totals["loose_grains"] + loose,
             "grains_left_out": int(found.grains - len(kept) - loose),
-            "pore_fraction": 1.0 - volume / outline,
+            "pore_fraction": max(1.0 - volume / outline, 0.0),  # 0 but for round-off
             "source_pore_fraction": 1.0 - rock / float(voxels.sum()),
         }
         if found.minerals is not None:
