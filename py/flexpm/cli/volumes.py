@@ -119,9 +119,9 @@ _unit = click.option(
 )
 @click.option(
     "--shape",
-    type=Name("box", "cylinder", "solid-disc"),
+    type=Name("box", "cylinder", "disc", "solid-disc"),
     default="box",
-    metavar="box|cylinder|solid-disc",
+    metavar="box|cylinder|disc",
     show_default=True,
     help="The whole volume, or a cylinder about z or a disc about y from its middle.",
 )
@@ -178,7 +178,8 @@ def volume(file: Path, out: Path, quiet: bool, **options: Any) -> None:
             kinds = volume_minerals.kinds_of(read, None, labels)
         made = made_of.specimen_of(read, kinds, chosen, progress)
     inputs.tell_lengths(made.extent, (made.mean_diameter,))
-    zero = 0 in read.ids and 0 not in kinds.pores
+    named = (phases is not None or minerals is not None) and 0 in (kinds.minerals or {})
+    zero = 0 in read.ids and 0 not in kinds.pores and not named
     _describe(made, read.source, folder, [_ZERO] if zero else [])
 
 

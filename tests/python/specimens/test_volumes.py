@@ -22,10 +22,13 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import flexpm
 from flexpm import Specimen
+from flexpm._flexpm import Solid, weighted_cells
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.materials.material import Material
 from flexpm.specimens.label_volumes.label_volume import LabelVolume
+from flexpm.specimens.space.own_cells import OwnCells
+from flexpm.specimens.space.specimen import SolidSpecimen
 from flexpm.specimens.volumes.regions import Kinds, find
 from flexpm.specimens.volumes.volume_minerals import kinds_of_file
 
@@ -184,6 +187,25 @@ def test_a_pore_softens_the_rock_within_bounds():
     assert 1.0 - 3.5 * share < found / rock < 1.0 - 1.5 * share
 
 
+@pytest.mark.parametrize("seed", [36, 88, 121])
+def test_bent_walls_of_pores_keep_the_triangles_of_the_collapse(seed):
+    """A polygon that two corners cut equally well has other triangles if its corners turn around.
+
+    In these cells one of the two cuts turns a tetrahedron over.
+    """
+    draw = np.random.default_rng(seed)
+    points, weights = 0.01 * draw.random((60, 3)), (0.0025 * draw.uniform(0.0, 0.5, 60)) ** 2
+    cube = Solid.box(0.01, 0.01, 0.01)
+    cells = weighted_cells(points, weights, cube)
+    while not (there := cells.volumes > 1e-4 * cells.volumes.mean()).all():
+        points, weights = points[there], weights[there]
+        cells = weighted_cells(points, weights, cube)
+    own = OwnCells.of_weighted(cells).with_pores(len(points) * 3 // 5)
+    sizes = {"width": 0.01, "depth": 0.01, "height": 0.01}
+    solid = SolidSpecimen.of_cells(own, "box", sizes, short_edge=0.45)
+    assert np.asarray(solid.meshes().volumes).min() > 0.0
+
+
 def test_a_channel_along_the_side_leaves_poissons_ratio():
     """Between smooth platens a prism of any section has the stress, and the widening, of a box."""
     z, y, x = np.indices((24, 24, 24)) // 4
@@ -276,12 +298,13 @@ def voxels_inside(section, diameter):
     return sum((SIDE * off[axis]) ** 2 for axis in section) < (0.5 * diameter) ** 2
 
 
-@pytest.mark.parametrize(("shape", "section"), [("cylinder", "xy"), ("solid-disc", "xz")])
+@pytest.mark.parametrize(("shape", "section"), [("cylinder", "xy"), ("disc", "xz")])
 def test_round_specimens_are_cut_from_the_middle(tmp_path, shape, section):
     labels = with_pore()
     minerals = {label: (None if label == 0 else label % 2) for label in range(41)}
     solid = made(labels, minerals=minerals, shape=shape, diameter=0.016)
-    assert solid.kind == shape and solid.extent["diameter"] == 0.016
+    assert solid.kind == {"cylinder": "cylinder", "disc": "solid-disc"}[shape]
+    assert solid.extent["diameter"] == 0.016
     volume = np.pi / 4.0 * 0.016**2 * {"xy": 0.024, "xz": 0.016}[section]
     assert solid.outline().volume == pytest.approx(volume, rel=1e-9)
     # grains that are in the middle of the box are there, with their minerals
@@ -544,6 +567,19 @@ def test_command_writes_grains_report_and_pictures(tmp_path, capsys, monkeypatch
     lines = (tmp_path / "made" / "volume.csv").read_text().splitlines()
     assert len(lines) == content["grains"] + 1 and lines[0].startswith("grain,label,x,y,z,voxels,")
     assert "volume.png" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("phases", "told"), [(None, True), ('0 = "a"\n1 = "b"\n', False)])
+def test_label_0_is_told_unless_it_has_a_name(tmp_path, capsys, monkeypatch, phases, told):
+    monkeypatch.chdir(tmp_path)
+    np.save("scan.npy", np.repeat([0, 1], 32).reshape(4, 4, 4))
+    named = []
+    if phases is not None:
+        (tmp_path / "phases.toml").write_text(phases)
+        named = ["--phases", "phases.toml"]
+    arguments = ["scan.npy", "--voxel", "1e-3", "--labels", "phases", *named]
+    assert cli.main([*COMMAND, *arguments]) == 0
+    assert ("label 0 is rock" in capsys.readouterr().out) == told
 
 
 def test_the_mesh_for_paraview_has_the_minerals(tmp_path, monkeypatch):

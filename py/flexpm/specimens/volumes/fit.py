@@ -33,13 +33,14 @@ _MOST_AT_BOUNDARY, _MOST_INSIDE, _TENTH = 400, 100, 10
 #: Most rounds of larger weights of regions that lost this share of their voxels against the start
 #: [-], and the factor on their weights.
 _ROUNDS, _LOST, _WEIGHT = 12, 0.01, 2.0
-#: Rounds in a row without fewer such regions, after which no further round follows.
-_PATIENCE = 3
+#: Rounds in a row that do not bring their number below this share of the least one [-], after which
+#: no further round follows.
+_PATIENCE, _LESS = 3, 0.9
 #: Failed raises, and agreement below the best one [-], after which no further result is raised.
 #: Results that are less behind are as good if they have more of the cells.
 _FAILED, _BEHIND = 2, 0.01
 #: Most raises of a level for each region in the mean; volumes of 60 to 90 grains need up to 16.
-_RAISES = 50
+_RAISES = 20
 #: Shares of the start in mixtures that are tried if no fit can be raised [-].
 _MIXTURES = (0.25, 0.5, 0.75)
 #: Largest relative error of exact volumes [-].
@@ -220,7 +221,7 @@ def _trials(problem: _Problem, start: Trial, progress: Progress | None) -> Itera
     factors, fewest, vain = np.ones(problem.grid.count), problem.grid.count, 0
     for number in range(1, _ROUNDS + 1):
         lost = (start.own - here.own > _LOST) | (here.own == 0.0)
-        vain = 0 if lost.sum() < fewest else vain + 1
+        vain = 0 if lost.sum() < _LESS * fewest else vain + 1
         fewest = min(fewest, int(lost.sum()))
         if here is start or not lost.any() or vain == _PATIENCE:
             return
