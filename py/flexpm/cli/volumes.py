@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 #: Grains that the command names; volume.csv has all.
 _MOST_NAMED = 8
+#: Share of the boundaries that divide regions of a label, above which a message is printed [-].
+_DIVIDED = 0.1
 #: Agreement from which nothing is said of a start that no fit has improved [-].
 _GOOD = 0.9
 _ZERO = 'label 0 is rock; if it is none, give a file with 0 = "hole" by --phases'
@@ -278,6 +280,11 @@ def _notes(made: SolidSpecimen, report: VolumeReport) -> list[str]:
     ):
         if number := totals[name]:
             lines.append(f"{what}: {number}")
+    if (divided := totals["divided_share"]) > _DIVIDED:
+        lines.append(
+            f"{100 * divided:.0f} % of the area of all boundaries divide regions of a label, and "
+            "cracks may follow them"
+        )
     soft = softness(made)
     if soft > SOFT:
         lines.append(

@@ -291,6 +291,25 @@ def test_watershed_divides_a_phase_where_it_is_narrow():
     assert found.minerals.tolist() == [0] * (len(found.ids) - 2) + [1, 1]
 
 
+@pytest.mark.parametrize(("common", "told"), [(4, True), (2, False)])
+def test_boundaries_by_which_a_watershed_divides_a_phase_are_told(
+    tmp_path, capsys, monkeypatch, common, told
+):
+    """Two cubes of 8 voxels in a box that they fill but for pores, with a strip in common."""
+    monkeypatch.chdir(tmp_path)
+    off = 8 - common
+    labels = np.zeros((8, 8 + off, 16), np.uint8)
+    labels[:, :8, :8] = labels[:, off:, 8:] = 1
+    np.save("scan.npy", labels)
+    (tmp_path / "phases.toml").write_text('0 = "hole"\n')
+    arguments = ["--voxel", "1e-3", "--labels", "phases", "--watershed", "--phases", "phases.toml"]
+    assert cli.main([*COMMAND, "scan.npy", *arguments, "--out", "made"]) == 0
+    made_of = json.loads((tmp_path / "made" / "specimen.json").read_text())["volume"]
+    walls = 2 * 8 * (8 + off)
+    assert made_of["divided_share"] == pytest.approx(8 * common / (8 * common + walls), rel=1e-12)
+    assert ("divide regions of a label" in capsys.readouterr().out) == told
+
+
 def voxels_inside(section, diameter):
     """Voxels of `with_pore` in the middle of the box."""
     z, y, x = np.indices(with_pore().shape) + 0.5
