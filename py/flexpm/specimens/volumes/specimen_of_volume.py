@@ -26,7 +26,8 @@ from ..space.own_cells import OwnCells
 from ..space.spec import SHORT_EDGE
 from ..space.specimen import SolidSpecimen
 from . import regions
-from .fit import Grid, Trial, edges_of, fit
+from .fit import Trial, edges_of, fit
+from .grid import Grid
 from .regions import Kinds, loose_grains
 from .volume_report import compare
 

@@ -12,7 +12,8 @@ from ...arrays import BoolArray, FloatArray, IntArray
 from ...files import Table
 from ..label_volumes.label_volume import Labels
 from ..space.own_cells import OwnCells
-from .fit import Fitted, Grid, edges_of
+from .fit import Fitted, edges_of
+from .grid import Grid
 from .regions import VolumeRegions
 
 #: Agreement below which one convex cell is a poor model of a grain [-].
