@@ -58,3 +58,25 @@ def unions(volume, seed, largest):
         if one not in partner and other not in partner:
             partner[one], partner[other] = one, one
     return np.array([partner.get(k, k) for k in range(len(volume.cells.volumes))])[volume.labels]
+
+
+def bent_with_fragments(volume, fragments, seed, bend=1.5, size=(3, 2, 3)):
+    """Labels with wavy boundaries, on which small grains of a size along z, y, x lie."""
+    z, y, x = np.indices(volume.labels.shape)
+    moved = [y + bend * np.sin(x / 3.0), x + bend * np.sin(z / 3.0)]
+    rows, columns = (
+        np.clip(np.rint(at).astype(int), 0, count - 1)
+        for at, count in zip(moved, volume.labels.shape[1:], strict=True)
+    )
+    bent = volume.labels[z, rows, columns]
+    met = np.zeros(bent.shape, dtype=bool)
+    for axis in range(3):
+        last = tuple(slice(-1 if axis == other else None) for other in range(3))
+        met[last] |= np.diff(bent, axis=axis) != 0
+    boundary, draw = np.argwhere(met), np.random.default_rng(seed)
+    labels, first = bent.copy(), len(volume.cells.volumes)
+    for label in range(first, first + fragments):
+        corner = boundary[draw.integers(len(boundary))] - np.array(size) // 2
+        ends = zip(np.maximum(corner, 0), size, strict=True)
+        labels[tuple(slice(at, at + count) for at, count in ends)] = label
+    return labels

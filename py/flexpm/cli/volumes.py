@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 #: Grains that the command names; volume.csv has all.
 _MOST_NAMED = 8
+#: Share of the boundaries that divide regions of a label, above which a message is printed [-].
+_DIVIDED = 0.1
 #: Agreement from which nothing is said of a start that no fit has improved [-].
 _GOOD = 0.9
 _ZERO = 'label 0 is rock; if it is none, give a file with 0 = "hole" by --phases'
@@ -119,9 +121,9 @@ _unit = click.option(
 )
 @click.option(
     "--shape",
-    type=Name("box", "cylinder", "solid-disc"),
+    type=Name("box", "cylinder", "disc", "solid-disc"),
     default="box",
-    metavar="box|cylinder|solid-disc",
+    metavar="box|cylinder|disc",
     show_default=True,
     help="The whole volume, or a cylinder about z or a disc about y from its middle.",
 )
@@ -178,7 +180,8 @@ def volume(file: Path, out: Path, quiet: bool, **options: Any) -> None:
             kinds = volume_minerals.kinds_of(read, None, labels)
         made = made_of.specimen_of(read, kinds, chosen, progress)
     inputs.tell_lengths(made.extent, (made.mean_diameter,))
-    zero = 0 in read.ids and 0 not in kinds.pores
+    named = (phases is not None or minerals is not None) and 0 in (kinds.minerals or {})
+    zero = 0 in read.ids and 0 not in kinds.pores and not named
     _describe(made, read.source, folder, [_ZERO] if zero else [])
 
 
@@ -277,6 +280,11 @@ def _notes(made: SolidSpecimen, report: VolumeReport) -> list[str]:
     ):
         if number := totals[name]:
             lines.append(f"{what}: {number}")
+    if (divided := totals["divided_share"]) > _DIVIDED:
+        lines.append(
+            f"{100 * divided:.0f} % of the area of all boundaries divide regions of a label, and "
+            "cracks may follow them"
+        )
     soft = softness(made)
     if soft > SOFT:
         lines.append(

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 import yade
-from refusals import failure
+from refusals import refusal
 
 import flexpm
 
@@ -161,10 +161,10 @@ def test_what_cannot_be_done_is_refused(column):
     whole = flexpm.Specimen.box(0.008, 0.008, 0.012)
     plane = {"point": (0.004, 0.004, 0.006), "dip": 30.0, "dip_direction": 0.0}
     cut = whole.with_joints({"a": plane})
-    assert "grain = 44, must be 0 to 43" in failure(None, whole.without_grains, [44])
-    assert "flags = 3, must be 44" in failure(None, whole.without_grains, [True, False, True])
-    assert "grains left = 1, must be >= 2" in failure(None, whole.without_grains, range(43))
+    refusal("grain = 44, must be 0 to 43", whole.without_grains, [44])
+    refusal("flags = 3, must be 44", whole.without_grains, [True, False, True])
+    refusal("grains left = 1, must be >= 2", whole.without_grains, range(43))
     for given in (cut, column):
-        assert "cells = cut or given" in failure(None, given.without_grains, [0])
-    refused = "bonded = False, must be True for model jcfpm"
-    assert refused in failure(None, flexpm.build, whole, None, "jcfpm", bonded=False)
+        refusal("cells = cut or given", given.without_grains, [0])
+    words = "bonded = False, must be True for model jcfpm"
+    refusal(words, flexpm.build, whole, None, "jcfpm", bonded=False)

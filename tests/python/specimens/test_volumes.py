@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from drawn_volumes import power_volume, unions
+from drawn_volumes import bent_with_fragments, power_volume, unions
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from refusals import refusal
@@ -22,10 +22,13 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import flexpm
 from flexpm import Specimen
+from flexpm._flexpm import Solid, weighted_cells
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
 from flexpm.materials.material import Material
 from flexpm.specimens.label_volumes.label_volume import LabelVolume
+from flexpm.specimens.space.own_cells import OwnCells
+from flexpm.specimens.space.specimen import SolidSpecimen
 from flexpm.specimens.volumes.regions import Kinds, find
 from flexpm.specimens.volumes.volume_minerals import kinds_of_file
 
@@ -89,6 +92,15 @@ def test_grains_that_are_not_convex_get_the_best_cells(largest, least):
     # no grain pays for the gain of the others
     assert totals["grains_below_start"] == 0 and len(labels) == totals["grains"]
     assert (agreement >= np.array(fit.columns["start_agreement"])).all()
+
+
+def test_small_grains_at_boundaries_of_large_ones_keep_their_cells():
+    """As in recrystallised metals: the boundaries of large grains pay better than small grains."""
+    labels = bent_with_fragments(power_volume(20, (32, 32, 32), seed=2), 60, seed=1)
+    fit = made(labels).fit
+    assert fit.totals["grains_below_start"] == 0
+    assert fit.totals["agreement"] > fit.totals["start_agreement"] + 0.02
+    assert not fit.totals["lost_grains"]
 
 
 def test_a_grain_within_another_is_named():
@@ -173,6 +185,25 @@ def test_a_pore_softens_the_rock_within_bounds():
     found = flexpm.elastic(made(labels, minerals={0: None}))["youngs_modulus"]
     share = made(labels, minerals={0: None}).fit.totals["pore_fraction"]
     assert 1.0 - 3.5 * share < found / rock < 1.0 - 1.5 * share
+
+
+@pytest.mark.parametrize("seed", [36, 88, 121])
+def test_bent_walls_of_pores_keep_the_triangles_of_the_collapse(seed):
+    """A polygon that two corners cut equally well has other triangles if its corners turn around.
+
+    In these cells one of the two cuts turns a tetrahedron over.
+    """
+    draw = np.random.default_rng(seed)
+    points, weights = 0.01 * draw.random((60, 3)), (0.0025 * draw.uniform(0.0, 0.5, 60)) ** 2
+    cube = Solid.box(0.01, 0.01, 0.01)
+    cells = weighted_cells(points, weights, cube)
+    while not (there := cells.volumes > 1e-4 * cells.volumes.mean()).all():
+        points, weights = points[there], weights[there]
+        cells = weighted_cells(points, weights, cube)
+    own = OwnCells.of_weighted(cells).with_pores(len(points) * 3 // 5)
+    sizes = {"width": 0.01, "depth": 0.01, "height": 0.01}
+    solid = SolidSpecimen.of_cells(own, "box", sizes, short_edge=0.45)
+    assert np.asarray(solid.meshes().volumes).min() > 0.0
 
 
 def test_a_channel_along_the_side_leaves_poissons_ratio():
@@ -260,6 +291,25 @@ def test_watershed_divides_a_phase_where_it_is_narrow():
     assert found.minerals.tolist() == [0] * (len(found.ids) - 2) + [1, 1]
 
 
+@pytest.mark.parametrize(("common", "told"), [(4, True), (2, False)])
+def test_boundaries_by_which_a_watershed_divides_a_phase_are_told(
+    tmp_path, capsys, monkeypatch, common, told
+):
+    """Two cubes of 8 voxels in a box that they fill but for pores, with a strip in common."""
+    monkeypatch.chdir(tmp_path)
+    off = 8 - common
+    labels = np.zeros((8, 8 + off, 16), np.uint8)
+    labels[:, :8, :8] = labels[:, off:, 8:] = 1
+    np.save("scan.npy", labels)
+    (tmp_path / "phases.toml").write_text('0 = "hole"\n')
+    arguments = ["--voxel", "1e-3", "--labels", "phases", "--watershed", "--phases", "phases.toml"]
+    assert cli.main([*COMMAND, "scan.npy", *arguments, "--out", "made"]) == 0
+    made_of = json.loads((tmp_path / "made" / "specimen.json").read_text())["volume"]
+    walls = 2 * 8 * (8 + off)
+    assert made_of["divided_share"] == pytest.approx(8 * common / (8 * common + walls), rel=1e-12)
+    assert ("divide regions of a label" in capsys.readouterr().out) == told
+
+
 def voxels_inside(section, diameter):
     """Voxels of `with_pore` in the middle of the box."""
     z, y, x = np.indices(with_pore().shape) + 0.5
@@ -267,12 +317,13 @@ def voxels_inside(section, diameter):
     return sum((SIDE * off[axis]) ** 2 for axis in section) < (0.5 * diameter) ** 2
 
 
-@pytest.mark.parametrize(("shape", "section"), [("cylinder", "xy"), ("solid-disc", "xz")])
+@pytest.mark.parametrize(("shape", "section"), [("cylinder", "xy"), ("disc", "xz")])
 def test_round_specimens_are_cut_from_the_middle(tmp_path, shape, section):
     labels = with_pore()
     minerals = {label: (None if label == 0 else label % 2) for label in range(41)}
     solid = made(labels, minerals=minerals, shape=shape, diameter=0.016)
-    assert solid.kind == shape and solid.extent["diameter"] == 0.016
+    assert solid.kind == {"cylinder": "cylinder", "disc": "solid-disc"}[shape]
+    assert solid.extent["diameter"] == 0.016
     volume = np.pi / 4.0 * 0.016**2 * {"xy": 0.024, "xz": 0.016}[section]
     assert solid.outline().volume == pytest.approx(volume, rel=1e-9)
     # grains that are in the middle of the box are there, with their minerals
@@ -535,6 +586,19 @@ def test_command_writes_grains_report_and_pictures(tmp_path, capsys, monkeypatch
     lines = (tmp_path / "made" / "volume.csv").read_text().splitlines()
     assert len(lines) == content["grains"] + 1 and lines[0].startswith("grain,label,x,y,z,voxels,")
     assert "volume.png" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("phases", "told"), [(None, True), ('0 = "a"\n1 = "b"\n', False)])
+def test_label_0_is_told_unless_it_has_a_name(tmp_path, capsys, monkeypatch, phases, told):
+    monkeypatch.chdir(tmp_path)
+    np.save("scan.npy", np.repeat([0, 1], 32).reshape(4, 4, 4))
+    named = []
+    if phases is not None:
+        (tmp_path / "phases.toml").write_text(phases)
+        named = ["--phases", "phases.toml"]
+    arguments = ["scan.npy", "--voxel", "1e-3", "--labels", "phases", *named]
+    assert cli.main([*COMMAND, *arguments]) == 0
+    assert ("label 0 is rock" in capsys.readouterr().out) == told
 
 
 def test_the_mesh_for_paraview_has_the_minerals(tmp_path, monkeypatch):

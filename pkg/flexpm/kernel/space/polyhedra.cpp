@@ -82,7 +82,6 @@ void number_cells(Polyhedra& p, CellComplex& complex, const std::vector<Vector>&
         });
     p.face_offsets.push_back(0);
     for (CellFace& face : complex.faces) {
-        if (face.wall >= complex.flanks) begin_alike(complex.vertices, face.corners);
         const int second = face.second < 0 ? -1 : cell_of_sphere[face.second];
         p.faces.push_back({ cell_of_sphere[face.first], second, face.wall });
         if (second >= 0) p.joints.push_back(face.joint);
@@ -98,6 +97,15 @@ void number_cells(Polyhedra& p, CellComplex& complex, const std::vector<Vector>&
     }
 }
 
+/// Turn a polygon around without a change of its triangles: a bent one may be cut by other corners
+/// as well, and with other triangles, of which the collapse of edges knows nothing.
+void turn_around(const std::vector<Vector>& vertices, std::vector<int>& corners)
+{
+    const int tip = face_triangles(vertices, corners).front()[0];
+    std::rotate(corners.begin(), std::find(corners.begin(), corners.end(), tip), corners.end());
+    std::reverse(corners.begin() + 1, corners.end());
+}
+
 /// Take cells out: faces that they share with others become flanks of these.
 /// @param gone  cells, in order
 void take_out(CellComplex& complex, const std::vector<int>& gone)
@@ -111,7 +119,7 @@ void take_out(CellComplex& complex, const std::vector<int>& gone)
         if (first && (second || face.second < 0)) continue;
         if (first) {
             std::swap(face.first, face.second);
-            std::reverse(face.corners.begin(), face.corners.end());
+            turn_around(complex.vertices, face.corners);
         }
         if (first || second) {
             face.second = -1;
@@ -157,6 +165,9 @@ void finish_cells(
         p.uncollapsed_contacts += is_contact ? 1 : 0;
     }
     p.short_edges = collapse_short_edges(complex, centres, short_edge);
+    // the two sides of a notch
+    for (CellFace& face : complex.faces)
+        if (face.wall >= complex.flanks) begin_alike(complex.vertices, face.corners);
     take_out(complex, p.hidden_spheres);
     p.contacts = count_contacts(complex);
     number_cells(p, complex, centres);

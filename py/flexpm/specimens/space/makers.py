@@ -198,7 +198,7 @@ class SolidShapes:
             least_voxels: Smallest number of voxels of a grain or pore; smaller regions are merged
                 with a neighbour.
             watershed: Divide the regions of a label where they are narrow, for labels of phases.
-            shape: ``box``: the whole volume. ``cylinder`` about z or ``solid-disc`` about y, cut
+            shape: ``box``: the whole volume. ``cylinder`` about z or ``disc`` about y, cut
                 from the middle of the volume.
             diameter: Diameter of a cylinder or disc [m].
             volumes: ``exact``: in the box, before short edges are collapsed, cells have the

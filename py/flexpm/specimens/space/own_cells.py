@@ -19,8 +19,8 @@ from .cuts import kernel_planes
 from .frame import SolidFrame
 from .spec import SolidSpec
 
-#: Shapes that given cells can fill.
-SHAPES = ("box", "cylinder", "solid-disc")
+#: Kinds of specimens that given cells can fill.
+KINDS = ("box", "cylinder", "solid-disc")
 #: Faces smaller than this share of the mean one have normals of few digits [-].
 _SMALL = 1e-4
 #: Angle between facets of a mantle above it [rad].

@@ -25,7 +25,7 @@ from ...require import require_flag
 from ..kernel_input import call, checksum, checksums_of_starts, mineral_indices
 from . import cells as of_spheres
 from . import cuts, file
-from .own_cells import SHAPES, OwnCells
+from .own_cells import KINDS, OwnCells
 from .plane_only import PlaneOnly
 from .spec import SHORT_EDGE, SIZES, SolidSpec
 
@@ -397,7 +397,7 @@ class SolidSpecimen(PlaneOnly):
         if len(numbers) and not 0 <= numbers.min() <= numbers.max() < count:
             wrong = numbers[(numbers < 0) | (numbers >= count)][0]
             raise InputError(f"without_grains: grain = {wrong}, must be 0 to {count - 1}")
-        if self.planes or self.given is not None or self.kind not in SHAPES:
+        if self.planes or self.given is not None or self.kind not in KINDS:
             raise InputError(
                 "without_grains: cells = cut or given, must be Laguerre cells of a box, cylinder "
                 "or disc; remove grains before joints are cut"

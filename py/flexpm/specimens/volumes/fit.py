@@ -18,23 +18,28 @@ from ..._flexpm import (
     weighted_cells,
     weights_of_volumes,
 )
-from ...arrays import BoolArray, FloatArray, IntArray
+from ...arrays import FloatArray, IntArray
 from ...errors import InputError
 from ...progress import Progress
 from ..kernel_input import call
 from ..label_volumes.label_volume import Labels
-from ..labels.regions import shared_sides, sides_along_axes
+from .grid import Grid
 
 Scores = tuple[FloatArray, FloatArray]
 #: Widths of the soft maximum, in the side of a voxel times the mean radius of a region [-].
 _TEMPERATURES = (1.0, 0.25, 0.0625)
 #: Most voxels of a region in the fit: at its boundary, and of every tenth one inside.
 _MOST_AT_BOUNDARY, _MOST_INSIDE, _TENTH = 400, 100, 10
-#: Rounds of larger weights of regions that lost this share of their voxels against the start [-],
-#: and the factor on their weights.
-_ROUNDS, _LOST, _WEIGHT = 3, 0.01, 1.5
+#: Most rounds of larger weights of regions that lost this share of their voxels against the start
+#: [-], and the factor on their weights.
+_ROUNDS, _LOST, _WEIGHT = 12, 0.01, 2.0
+#: Rounds in a row without fewer such regions, after which no further round follows.
+_PATIENCE = 3
+#: Failed raises, and agreement below the best one [-], after which no further result is raised.
+#: Results that are less behind are as good if they have more of the cells.
+_FAILED, _BEHIND = 2, 0.01
 #: Most raises of a level for each region in the mean; volumes of 60 to 90 grains need up to 16.
-_RAISES = 50
+_RAISES = 20
 #: Shares of the start in mixtures that are tried if no fit can be raised [-].
 _MIXTURES = (0.25, 0.5, 0.75)
 #: Largest relative error of exact volumes [-].
@@ -75,102 +80,14 @@ class Fitted:
     start: Trial
 
 
-@dataclass(frozen=True, eq=False)
-class Grid:
-    """Regions of voxels in a box from the origin.
-
-    Attributes:
-        regions: Region of each voxel, (z, y, x).
-        spacing: Size of a voxel along x, y, z [m].
-        count: Number of regions; each one has a voxel.
-        grains: Number of grains: the first regions. The others are pieces of pores.
-    """
-
-    regions: Labels
-    spacing: FloatArray
-    count: int
-    grains: int
-
-    @property
-    def counts(self) -> tuple[int, int, int]:
-        """Number of voxels along x, y, z."""
-        z, y, x = self.regions.shape
-        return x, y, z
-
-    @property
-    def sizes(self) -> FloatArray:
-        """Sizes of the box along x, y, z [m]."""
-        found: FloatArray = np.array(self.counts) * self.spacing
-        return found
-
-    @property
-    def voxel(self) -> float:
-        """Volume of a voxel [m3]."""
-        return float(np.prod(self.spacing))
-
-    def voxels(self) -> IntArray:
-        """Number of voxels of each region."""
-        found: IntArray = np.bincount(self.regions.ravel(), minlength=self.count)
-        return found
-
-    def centroids(self) -> FloatArray:
-        """Centroid of each region, (n, 3) [m]."""
-        voxels = self.voxels()
-        found = np.empty((self.count, 3))
-        for axis, size in enumerate(self.spacing.tolist()):
-            # sums of whole numbers: exact, in any order
-            sums = np.zeros(self.count, dtype=np.int64)
-            for k in range(self.counts[axis]):
-                layer = np.take(self.regions, k, axis=2 - axis)
-                sums += (2 * k + 1) * np.bincount(layer.ravel(), minlength=self.count)
-            found[:, axis] = 0.5 * size * sums / voxels
-        return found
-
-    def metric(self, centroids: FloatArray) -> FloatArray:
-        """Inverse of the mean second moment of the regions about their centroids, with det. 1."""
-        sides = np.array(self.counts, dtype=float)
-        # sums over all voxels of the box, less those of the centroids
-        whole = np.prod(sides) * np.outer(sides, sides) / 4.0
-        whole[np.diag_indices(3)] = np.prod(sides) * (4.0 * sides**2 - 1.0) / 12.0
-        parts = self.voxels()[:, None, None] * centroids[:, :, None] * centroids[:, None, :]
-        moment = whole * np.outer(self.spacing, self.spacing) - np.sum(parts, axis=0)
-        moment += np.prod(sides) / 12.0 * np.diag(self.spacing**2)  # of the voxels themselves
-        inverse = np.linalg.inv(moment)
-        found: FloatArray = inverse / np.cbrt(np.linalg.det(inverse))
-        return found
-
-    def neighbours(self) -> IntArray:
-        """Pairs of regions that share a side of a voxel, rows of two, the lower one first."""
-        return shared_sides(self.regions)[0]
-
-    def agrees(self, found: Labels) -> BoolArray:
-        """Whether voxels are in the cell of their region; all pieces of pores are one region."""
-        pores = (found >= self.grains) & (self.regions >= self.grains)
-        agree: BoolArray = (found == self.regions) | pores
-        return agree
-
-    def sides(self) -> list[tuple[Labels, Labels]]:
-        """Views of the regions on both sides of each side of voxels, along z, y and x."""
-        return sides_along_axes(self.regions)
-
-    def at_boundary(self) -> BoolArray:
-        """Whether a voxel shares a side with a voxel of another region."""
-        found: BoolArray = np.zeros(self.regions.shape, dtype=bool)
-        for values, marks in zip(self.sides(), sides_along_axes(found), strict=True):
-            met = values[0] != values[1]
-            for mark in marks:
-                np.logical_or(mark, met, out=mark)
-        return found
-
-
 def fit(grid: Grid, progress: Progress | None = None, *, exact: bool = False) -> Fitted:
     """Fit a power cell to each region of a grid.
 
     The start has the centroids and the radii of the regions. Three stages of a softer to a sharper
-    fit follow, and up to three rounds in which regions that lost voxels against the start have a
-    larger weight. In each result the levels are raised until no region has fewer voxels in its
-    cell than at the start. The result with most voxels in the cells of their regions is taken, the
-    start included.
+    fit follow. Then rounds follow in which regions that lost voxels against the start, or all of
+    them, have a larger and larger weight. Levels are raised until no region has fewer voxels in
+    its cell than at the start. The result with most voxels in the cells of their regions is taken,
+    the start included, or one with nearly as many in which fewer regions have no voxel.
 
     Args:
         grid: The regions, two or more.
@@ -185,20 +102,12 @@ def fit(grid: Grid, progress: Progress | None = None, *, exact: bool = False) ->
         InputError: if a region loses its cell and volumes are to be exact.
     """
     problem = _Problem.of(grid)
-    start = best = problem.start()
-    here, scores = start, start.scores
-    for stage, width in enumerate(_TEMPERATURES, start=1):
-        if progress is not None:
-            progress(stage - 1, len(_TEMPERATURES), f"fit of {grid.count} cells, stage {stage}")
-        trial = problem.fitted(scores, width, str(stage))
-        scores = trial.scores
-        here = max(here, trial, key=_agreement)
-        best = max(best, problem.raised(trial, start), key=_agreement)
-    for trial in _rounds(problem, start, here):
-        best = max(best, problem.raised(trial, start), key=_agreement)
-    for share in _MIXTURES if best is start and here is not start else ():
-        trial = problem.mixture(here, start, share)
-        best = max(best, problem.raised(trial, start), key=_agreement)
+    start = problem.start()
+    trials = list(_trials(problem, start, progress))
+    best = _best_raised(problem, start, trials)
+    if best is start and max(trials, key=_agreement).agreement > start.agreement:
+        mixtures = [problem.mixture(trials[-1], start, share) for share in _MIXTURES]
+        best = _best_raised(problem, start, mixtures)
     if exact:
         best = _with_volumes(problem, best)
     return Fitted(best, start)
@@ -208,16 +117,52 @@ def _agreement(trial: Trial) -> float:
     return trial.agreement
 
 
-def _rounds(problem: _Problem, start: Trial, best: Trial) -> Iterator[Trial]:
-    """Fit with more and more weight of the regions that agree less than at the start."""
-    factors, here = np.ones(problem.grid.count), best
+def _trials(problem: _Problem, start: Trial, progress: Progress | None) -> Iterator[Trial]:
+    """Fit in stages, then with more and more weight of the regions that lost their voxels."""
+    cells = f"fit of {problem.grid.count} cells"
+    steps = len(_TEMPERATURES) + 1
+    here, scores = start, start.scores
+    for stage, width in enumerate(_TEMPERATURES, start=1):
+        if progress is not None:
+            progress(stage - 1, steps, f"{cells}, stage {stage}")
+        trial = problem.fitted(scores, width, str(stage))
+        scores = trial.scores
+        here = max(here, trial, key=_agreement)
+        yield trial
+    factors, fewest, vain = np.ones(problem.grid.count), problem.grid.count, 0
     for number in range(1, _ROUNDS + 1):
-        lost = start.own - here.own > _LOST
-        if here is start or not lost.any():
+        lost = (start.own - here.own > _LOST) | (here.own == 0.0)
+        vain = 0 if lost.sum() < fewest else vain + 1
+        fewest = min(fewest, int(lost.sum()))
+        if here is start or not lost.any() or vain == _PATIENCE:
             return
+        if progress is not None:
+            progress(steps - 1, steps, f"{cells}, {lost.sum()} worse than at first, round {number}")
         factors[lost] *= _WEIGHT
         here = problem.fitted(here.scores, _TEMPERATURES[-1], f"guard {number}", factors)
         yield here
+
+
+def _best_raised(problem: _Problem, start: Trial, trials: list[Trial]) -> Trial:
+    """Return the best of the trials once they are raised, or the start.
+
+    Trials with fewest regions that are worse than at the start come first. The search ends when
+    raises fail, which takes longest, or when trials are well behind the best one. Of trials that
+    are not well behind, the one with fewest regions without a voxel is taken.
+    """
+    found, failed, most = [start], 0, start.agreement
+    for trial in sorted(trials, key=lambda one: np.count_nonzero(one.own < start.own)):
+        raised = problem.raised(trial, start)
+        if raised is start:
+            failed += 1
+        elif raised.agreement < most - _BEHIND:
+            break
+        found.append(raised)
+        most = max(most, raised.agreement)
+        if failed == _FAILED:
+            break
+    near = [trial for trial in found if trial.agreement >= most - _BEHIND]
+    return min(near, key=lambda trial: (np.count_nonzero(trial.own == 0.0), -trial.agreement))
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,15 +22,18 @@ from ..kernel_input import call
 from ..label_volumes.label_volume import Labels, LabelVolume
 from ..label_volumes.reading import read
 from ..space.frame import SolidFrame
-from ..space.own_cells import SHAPES, OwnCells
+from ..space.own_cells import OwnCells
 from ..space.spec import SHORT_EDGE
 from ..space.specimen import SolidSpecimen
 from . import regions
-from .fit import Grid, Trial, edges_of, fit
+from .fit import Trial, edges_of, fit
+from .grid import Grid
 from .regions import Kinds, loose_grains
 from .volume_report import compare
 
 _WHERE = "Specimen.from_label_volume"
+#: Shapes that are cut from a volume, and the kinds of specimens that they are.
+SHAPES = {"box": "box", "cylinder": "cylinder", "disc": "solid-disc", "solid-disc": "solid-disc"}
 VOLUMES = ("fitted", "exact")
 #: Default of the smallest number of voxels of a region.
 LEAST_VOXELS = 8
@@ -54,6 +57,7 @@ class VolumeOptions:
     def __post_init__(self) -> None:
         require_whole(f"{_WHERE}: least_voxels", self.least_voxels, Bounds(at_least=1))
         require_one_of(f"{_WHERE}: shape", self.shape, [*SHAPES])
+        object.__setattr__(self, "shape", SHAPES[self.shape])
         require_one_of(f"{_WHERE}: volumes", self.volumes, [*VOLUMES])
         require_short_edge(self.short_edge)
         if (self.diameter is None) != (self.shape == "box"):

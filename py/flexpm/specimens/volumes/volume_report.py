@@ -12,7 +12,8 @@ from ...arrays import BoolArray, FloatArray, IntArray
 from ...files import Table
 from ..label_volumes.label_volume import Labels
 from ..space.own_cells import OwnCells
-from .fit import Fitted, Grid, edges_of
+from .fit import Fitted, edges_of
+from .grid import Grid
 from .regions import VolumeRegions
 
 #: Agreement below which one convex cell is a poor model of a grain [-].
@@ -83,7 +84,7 @@ class VolumeReport:
             "specimen_grains": len(kept),
             "loose_grains": self.totals["loose_grains"] + loose,
             "grains_left_out": int(found.grains - len(kept) - loose),
-            "pore_fraction": 1.0 - volume / outline,
+            "pore_fraction": max(1.0 - volume / outline, 0.0),  # 0 but for round-off
             "source_pore_fraction": 1.0 - rock / float(voxels.sum()),
         }
         if found.minerals is not None:
@@ -132,6 +133,7 @@ def compare(
     errors = cells.volumes[rock] / volumes[rock] - 1.0
     rms = float(np.sqrt(np.mean(errors**2)))
     both = len(of_voxels) - len(lost)
+    between, of_one_label, all_sides = _source_areas(grid, found)
     totals: Table = {
         "voxels": list(grid.counts),
         "voxel_size": grid.spacing.tolist(),
@@ -144,7 +146,8 @@ def compare(
         "volume_error_rms": rms,
         "neighbours_f1": 2.0 * both / (len(of_voxels) + len(of_cells)),
         "boundary_area": _boundary_area(fitted, found.grains),
-        "source_boundary_area": _source_area(grid, found.grains) / _STAIRCASE,
+        "source_boundary_area": between / _STAIRCASE,
+        "divided_share": of_one_label / all_sides if all_sides else 0.0,
         "lost_grains": np.flatnonzero(cells.volumes[rock] <= 0.0).tolist(),
     }
     kept = {name: np.asarray(values)[rock].tolist() for name, values in columns.items()}
@@ -168,10 +171,19 @@ def _boundary_area(fitted: Fitted, grains: int) -> float:
     return float(np.sqrt(np.sum(own.areas()[between] ** 2, axis=1)).sum())
 
 
-def _source_area(grid: Grid, grains: int) -> float:
-    """Area of the sides of voxels between grains [m2]."""
-    total = 0.0
+def _source_areas(grid: Grid, found: VolumeRegions) -> tuple[float, float, float]:
+    """Areas of the sides of voxels [m2]: between grains, between grains of a label, of all grains.
+
+    The last one has the walls of pores, too.
+    """
+    between = of_one_label = of_all = 0.0
     for axis, (one, other) in zip((2, 1, 0), grid.sides(), strict=True):
-        met = (one != other) & (one < grains) & (other < grains)
-        total += float(np.count_nonzero(met)) * grid.voxel / float(grid.spacing[axis])
-    return total
+        side = grid.voxel / float(grid.spacing[axis])
+        met = (one != other) & ((one < found.grains) | (other < found.grains))
+        pairs = np.column_stack((one[met], other[met]))
+        grains = pairs[(pairs < found.grains).all(axis=1)]
+        alike = found.ids[grains[:, 0]] == found.ids[grains[:, 1]]
+        of_all += side * len(pairs)
+        between += side * len(grains)
+        of_one_label += side * float(np.count_nonzero(alike))
+    return between, of_one_label, of_all
