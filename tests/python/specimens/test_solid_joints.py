@@ -13,10 +13,12 @@ from hypothesis import strategies as st
 from refusals import refusal
 
 import flexpm
+from flexpm.cli import main as cli
 from flexpm.joints.disc_network import Box, DiscNetwork
 from flexpm.joints.disc_radii import RADII
 from flexpm.joints.planes import JointPlane, disc, normal_of
 from flexpm.joints.poles import Fisher, statistics
+from flexpm.report.stereonet import great_circle, projected
 from flexpm.results import doubts
 from flexpm.specimens.space import cuts, file
 
@@ -331,6 +333,39 @@ def meets(one: JointPlane, places):
     for corner, (along, across) in zip(corners, turned, strict=True):
         inside &= (places - corner) @ [-across, along] * np.sign(z) > 0.0
     return inside & (height > 0.0) & (height < 0.02)
+
+
+@given(st.floats(0.0, 90.0), st.floats(0.0, 360.0))
+def test_a_stereonet_has_equal_areas_on_the_lower_hemisphere(dip, direction):
+    """A pole is opposite to the dip direction, and its cap has the area of its circle."""
+    ((x, y),) = projected(np.array([normal_of(dip, direction)]))
+    cap = 2.0 * math.pi * (1.0 - math.cos(math.radians(dip)))
+    assert math.pi * (x * x + y * y) == pytest.approx(0.5 * cap, abs=1e-12)
+    away = math.radians(direction)
+    assert x * math.cos(away) - y * math.sin(away) == pytest.approx(0.0, abs=1e-12)
+    if dip < 90.0:  # else both ends of the pole are on the rim
+        assert x * math.sin(away) + y * math.cos(away) <= 1e-12
+    circle = great_circle(dip, direction)
+    assert np.hypot(*circle.T).max() <= 1.0 + 1e-12
+    assert np.hypot(*circle[[0, -1]].T) == pytest.approx([1.0, 1.0])
+    # the lowest point of the plane is below its dip direction
+    lowest = circle[len(circle) // 2]
+    depth = math.sqrt(2.0) * math.sin(math.radians(45.0 - 0.5 * dip))
+    assert lowest == pytest.approx(depth * np.array([math.sin(away), math.cos(away)]), abs=1e-12)
+
+
+def test_the_command_draws_a_stereonet(tmp_path):
+    network, out = tmp_path / "n.toml", tmp_path / "out"
+    network.write_text(
+        "seed = 3\n[set.a]\nkind = 'discs'\nintensity = 300.0\n"
+        "radius = {law = 'constant', value = 0.004}\n"
+        "orientation = {law = 'fisher', dip = 40, dip_direction = 100, concentration = 20}\n"
+        "[set.b]\nkind = 'planes'\ndip = 80\ndip_direction = 300\nspacing = 0.008\n"
+        "origin = [0.0, 0.0, 0.0]\n"
+    )
+    call = ["specimen", "box", "--width", "0.012", "--depth", "0.012", "--height", "0.016"]
+    assert cli.main([*call, "--quiet", "--network", str(network), "--out", str(out)]) == 0
+    assert (out / "network.png").stat().st_size > 10000
 
 
 @pytest.mark.parametrize("law", [*RADII])

@@ -107,7 +107,8 @@ def areas(cells: Polyhedra, planes: Sequence[JointPlane]) -> FloatArray:
     normals = np.array([one.normal for one in planes])
     seen = np.einsum("ij,ij->i", vectors[on], normals[plane[on]])
     # a face around a grain may be seen from its other side: the sides of a joint face each other
-    return np.bincount(plane[on], _senses(cells, planes)[on] * seen, len(planes))
+    found: FloatArray = np.bincount(plane[on], _senses(cells, planes)[on] * seen, len(planes))
+    return found
 
 
 def _area_vectors(cells: Polyhedra) -> FloatArray:
