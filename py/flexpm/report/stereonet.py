@@ -67,8 +67,7 @@ def projected(normals: FloatArray) -> FloatArray:
     The equal-area projection of Lambert: the lower end of a normal at the angle a from the vertical
     lies at the distance sqrt(2) sin(a / 2) from the middle.
     """
-    below: FloatArray = np.where(normals[:, 2:] > 0.0, -normals, normals)
-    return _below(below)
+    return _below(np.where(normals[:, 2:] > 0.0, -1.0, 1.0) * normals)
 
 
 def great_circle(dip: float, dip_direction: float) -> FloatArray:
@@ -77,7 +76,7 @@ def great_circle(dip: float, dip_direction: float) -> FloatArray:
     around = math.radians(dip_direction)
     strike = np.array([math.cos(around), -math.sin(around), 0.0])
     down = np.array(normal_of(dip + 90.0, dip_direction))
-    return _below(np.outer(np.cos(angles), strike) + np.outer(np.sin(angles), down))
+    return _below(np.cos(angles)[:, None] * strike + np.sin(angles)[:, None] * down)
 
 
 def _below(vectors: FloatArray) -> FloatArray:

@@ -146,6 +146,16 @@ def test_joints(package_parent, tmp_path):
 
 
 @pytest.mark.long
+def test_jointed_core(package_parent, tmp_path):
+    text = printed("jointed_core.py", package_parent, str(tmp_path))
+    found = re.findall(r"sliding at ([\d.]+) MPa, plane of weakness ([\d.]+) MPa", text)
+    assert len(found) == 3
+    assert text.count("deviation 0 m") == 3
+    for stress, plane in found:
+        assert float(stress) == pytest.approx(float(plane), rel=0.02)
+
+
+@pytest.mark.long
 def test_fracture_network(package_parent, tmp_path):
     """Two networks at two dips: joints near 60 degrees slide, level ones hardly weaken."""
     text = printed("fracture_network.py", package_parent, str(tmp_path), "2", "0,60")

@@ -107,8 +107,8 @@ def areas(cells: Polyhedra, planes: Sequence[JointPlane]) -> FloatArray:
     normals = np.array([one.normal for one in planes])
     seen = np.einsum("ij,ij->i", vectors[on], normals[plane[on]])
     # a face around a grain may be seen from its other side: the sides of a joint face each other
-    found: FloatArray = np.bincount(plane[on], _senses(cells, planes)[on] * seen, len(planes))
-    return found
+    signed = _senses(cells, planes)[on] * seen
+    return np.asarray(np.bincount(plane[on], signed, len(planes)), dtype=float)
 
 
 def _area_vectors(cells: Polyhedra) -> FloatArray:
