@@ -20,7 +20,10 @@ from flexpm.joints.planes import JointPlane, disc, normal_of
 from flexpm.joints.poles import Fisher, statistics
 from flexpm.report.stereonet import great_circle, projected
 from flexpm.results import doubts
+from flexpm.specimens.files.source import SpecimenSource
 from flexpm.specimens.space import cuts, file
+from flexpm.specimens.space.spec import SolidSpec
+from flexpm.specimens.spec import SpecimenSpec
 
 SIDES = (0.012, 0.012, 0.016)
 PLANE = {"point": (0.006, 0.006, 0.008), "dip": 50.0, "dip_direction": 30.0}
@@ -223,6 +226,53 @@ def test_polygons_discs_and_planes_are_read_from_files(box, tmp_path):
     assert [one.planes[0].kind for one in made] == ["polygon", "disc", "plane"]
     for one in made:
         assert np.array_equal(one.cells.vertices, made[0].cells.vertices)
+
+
+POLYGONS = """nPolygons: 2
+4 {-1, -1, 0.001} {1, -1, 0.001} {1, 1, 0.001} {-1, 1, 0.001}
+3 {-1, 0, -1} {1, 0, -1} {0, 0, 1e-3}
+"""
+
+
+def test_polygons_of_dfnworks_are_read_about_the_middle(box, tmp_path):
+    polygons, out = tmp_path / "polygons.dat", tmp_path / "out"
+    polygons.write_text(POLYGONS)
+    cut = box.joints_from_dfnworks(polygons, "f")
+    assert [one.name for one in cut.planes] == ["f", "f"]
+    assert cut.planes[0].offset == pytest.approx(0.5 * SIDES[2] + 0.001)
+    assert cut.planes[1].corners[2] == pytest.approx((0.006, 0.006, 0.009))
+    call = ["specimen", "box", "--width", "0.012", "--depth", "0.012", "--height", "0.016"]
+    call += ["--quiet", "--joints", str(polygons), "--joint", "f", "--out", str(out)]
+    assert cli.main(call) == 0
+    found = flexpm.Specimen.load_solid(out / "solid.json")
+    assert found.planes == cut.planes
+    assert np.array_equal(found.cells.vertices, cut.cells.vertices)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "first line = '', must be 'nPolygons: N' before N polygons"),
+        (POLYGONS.replace("2", "3", 1), "must be 'nPolygons: N' before N polygons, of which the"),
+        (POLYGONS.replace("4 {", "5 {"), "number of corners = '5', must be 4"),
+        (POLYGONS.replace("1e-3", "nan"), "line 3: corner = '0, 0, nan', must be three numbers"),
+        (POLYGONS.replace("1e-3", "1, 2"), "corner = '0, 0, 1, 2', must be three numbers"),
+        (POLYGONS.replace("1e-3", "-1"), "area = 0 m2, must be above 0"),
+    ],
+)
+def test_files_of_no_polygons_are_refused(box, tmp_path, text, words):
+    (tmp_path / "a.dat").write_text(text)
+    refusal(words, box.joints_from_dfnworks, tmp_path / "a.dat", "f")
+
+
+def test_polygons_of_dfnworks_need_a_name_and_a_3d_specimen(tmp_path):
+    polygons = tmp_path / "a.dat"
+    polygons.write_text(POLYGONS)
+    solid, plane = SolidSpec("box"), SpecimenSpec("rectangle")
+    read = SpecimenSource.read
+    refusal("joint = None, must be the name of the joint", read, solid, joints=polygons)
+    refusal("joint = f, needs polygons of dfnWorks", read, solid, joint="f")
+    refusal("polygons of dfnWorks are available in 3D only", read, plane, joint="f")
 
 
 @pytest.mark.parametrize(
