@@ -138,7 +138,9 @@ def describe(made: SolidSpecimen, folder: Path, source: Table | None = None) -> 
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     picture = folder / "specimen.png"
     shown = outer if made.minerals is None else made.minerals[outer]
-    outside_picture(picture, cells.vertices, made.outer_polygons(), shown, caption)
+    outside_picture(
+        picture, cells.vertices, made.outer_polygons(), shown, caption, made.joint_traces()
+    )
     names = ["specimen.png", "specimen.json", "solid.json", "specimen.vtu"]
     if made.spec.networks:
         from ..report.stereonet import stereonet_picture

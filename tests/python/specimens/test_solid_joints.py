@@ -418,6 +418,18 @@ def test_the_command_draws_a_stereonet(tmp_path):
     assert (out / "network.png").stat().st_size > 10000
 
 
+def test_traces_of_a_plane_go_around_the_surface(box):
+    """The rim of a level section: four sides, all in the plane."""
+    cut = box.with_joints({"f": {**PLANE, "dip": 0.0}, "g": {**PLANE, "point": (0, 0, 0.004)}})
+    ends = cut.cells.vertices[cut.joint_traces()["f"]]
+    assert np.all(np.abs(ends[:, :, 2] - 0.008) < 1e-12)
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    # an edge belongs to one contact of the joint
+    assert math.fsum(lengths) == pytest.approx(4 * 0.012, rel=1e-9)
+    assert [*cut.joint_traces()] == ["f", "g"]
+    assert box.joint_traces() == {}
+
+
 @pytest.mark.parametrize("law", [*RADII])
 def test_laws_of_radii_have_their_mean_square(law):
     values = {"smallest": 0.5, "largest": 3.0}

@@ -481,6 +481,10 @@ class SolidSpecimen(PlaneOnly):
         """Return no lines: the joints of a 3D specimen are planes."""
         return [np.empty((0, 2, 2)) for _ in self.spec.joint_names or ()]
 
+    def joint_traces(self) -> dict[str, IntArray]:
+        """Return the edges (n, 2) at which each joint meets the surface, by name: vertices."""
+        return cuts.traces(self.cells, self.planes)
+
     def joint_deviations(self) -> dict[str, float]:
         """Return the largest distance between each joint's contacts and its planes, by name [m].
 
