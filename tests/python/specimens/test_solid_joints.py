@@ -404,7 +404,7 @@ def test_a_stereonet_has_equal_areas_on_the_lower_hemisphere(dip, direction):
     assert lowest == pytest.approx(depth * np.array([math.sin(away), math.cos(away)]), abs=1e-12)
 
 
-def test_the_command_draws_a_stereonet(tmp_path):
+def test_the_commands_draw_a_stereonet(tmp_path):
     network, out = tmp_path / "n.toml", tmp_path / "out"
     network.write_text(
         "seed = 3\n[set.a]\nkind = 'discs'\nintensity = 300.0\n"
@@ -413,9 +413,16 @@ def test_the_command_draws_a_stereonet(tmp_path):
         "[set.b]\nkind = 'planes'\ndip = 80\ndip_direction = 300\nspacing = 0.008\n"
         "origin = [0.0, 0.0, 0.0]\n"
     )
-    call = ["specimen", "box", "--width", "0.012", "--depth", "0.012", "--height", "0.016"]
-    assert cli.main([*call, "--quiet", "--network", str(network), "--out", str(out)]) == 0
+    sizes = ["--width", "0.012", "--depth", "0.012", "--height", "0.016"]
+    given = [*sizes, "--quiet", "--network", str(network), "--out"]
+    assert cli.main(["specimen", "box", *given, str(out)]) == 0
     assert (out / "network.png").stat().st_size > 10000
+    run, laws = tmp_path / "run", [f"joint.{name}.open=true" for name in "ab"]
+    call = ["run", "uniaxial", "--shape", "box", "--model", "rigid", "--max-strain", "1e-5"]
+    call += ["--rate", "16", *(word for law in laws for word in ("--set", law))]
+    assert cli.main([*call, *given, str(run)]) in (0, 3)
+    assert (run / "network.png").stat().st_size > 10000
+    assert "Fracture network" in (run / "report.html").read_text()
 
 
 def test_traces_of_a_plane_go_around_the_surface(box):
