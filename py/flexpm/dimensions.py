@@ -45,6 +45,12 @@ FEATURES = {
         ("Specimen.joints_from_geojson", "--joints with a .geojson file", "--name", "--origin"),
         "give planes, discs or polygons as a CSV file, or take a 2D specimen",
     ),
+    "dfnworks": Feature(
+        "polygons of dfnWorks",
+        3,
+        ("joints_from_dfnworks of a 3D specimen", "--joints with a .dat file", "--joint"),
+        "give lines as a CSV file or a map, or take a 3D specimen",
+    ),
     "excavation": Feature(
         "excavations",
         2,

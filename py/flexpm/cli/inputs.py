@@ -140,6 +140,7 @@ def _source(packed: AnySpec | None, file: Path | None, options: Table) -> Specim
         *(options[name] for name in names),
         joint_name=options["joint_name"],
         joint_origin=options["joint_origin"],
+        joint=options["joint"],
     )
     for line in found.notes:
         terminal.say(line)

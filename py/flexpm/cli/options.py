@@ -175,7 +175,13 @@ joints_option = combined(
         help="Cut a 2D specimen along the segments of a CSV file x1,y1,x2,y2,name [m], or the "
         "lines of a map, a .geojson file [m]; a 3D specimen along polygons name,x0,y0,z0,..., "
         "discs x,y,z,dip,dip_direction,radius,name, or whole planes, which have no radius "
-        "[m, degree].",
+        "[m, degree], or along the polygons of dfnWorks, a .dat file [m].",
+    ),
+    click.option(
+        "--joint",
+        "joint",
+        metavar="NAME",
+        help="Name of the joint of the polygons of dfnWorks, for a 3D specimen.",
     ),
     click.option(
         "--name",

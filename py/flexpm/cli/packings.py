@@ -86,7 +86,7 @@ def _given(options: Table) -> Table:
         found["joints"] = str(options["joints_file"].resolve())  # runs have folders of their own
     if options["network_file"] is not None:
         found["network"] = str(options["network_file"].resolve())
-    for name in ("joint_name", "joint_origin", "network_seed"):
+    for name in ("joint_name", "joint_origin", "joint", "network_seed"):
         if options[name] is not None:
             found[name] = options[name]
     parts = (one.partition("=") for one in options["assignments"])

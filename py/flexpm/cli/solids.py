@@ -13,6 +13,7 @@ from ..dimensions import SOLIDS
 from ..files import Table, json_text, write_text
 from ..kinds.registry import ELASTIC, KINDS, names
 from ..report import tables
+from ..runs.output import ROSE
 from ..specimens.space.spec import SIZES
 from . import inputs, terminal
 from . import options as cli_options
@@ -137,7 +138,14 @@ def describe(made: SolidSpecimen, folder: Path, source: Table | None = None) -> 
     caption = f"{found['grains']} grains, {found['contacts']} contacts"
     picture = folder / "specimen.png"
     shown = outer if made.minerals is None else made.minerals[outer]
-    outside_picture(picture, cells.vertices, made.outer_polygons(), shown, caption)
+    outside_picture(
+        picture, cells.vertices, made.outer_polygons(), shown, caption, made.joint_traces()
+    )
+    names = ["specimen.png", "specimen.json", "solid.json", "specimen.vtu"]
+    if made.spec.networks:
+        from ..report.stereonet import stereonet_picture
+
+        names.append(ROSE)
+        stereonet_picture(folder / ROSE, made)
     terminal.say(tables.statistics_table(found))
-    names = ("specimen.png", "specimen.json", "solid.json", "specimen.vtu")
     terminal.say(f"  files  {', '.join(str(folder / name) for name in names)}")

@@ -35,7 +35,7 @@ from ..runs.output import RESULT, ROSE, Output
 from ..runs.run_spec import RunSpec
 from ..runs.runner import Foresee, Runner
 from ..runs.written import about, write_files, write_so_far
-from ..specimens.specimen import Specimen
+from ..specimens.specimen import AnySpecimen, Specimen
 from . import halving
 from .outcome import outcome
 from .part_tests import part_rig, prepared
@@ -127,10 +127,8 @@ def _tested(
     elif folder is not None:
         write_vtu(folder / "specimen.vtu", built.snapshot(), about(spec.to_json()))
         give_back_memory()
-        if isinstance(specimen, Specimen) and specimen.spec.networks:
-            from ..report.rose import rose_picture
-
-            rose_picture(folder / ROSE, specimen)
+        if specimen.spec.networks:
+            _draw_network(folder / ROSE, specimen)
     rig = _rig_of(built, spec, runner)
     if folder is not None and not (folder / RESULT).exists():  # else they are those of the end
         runner.leave = partial(_leave, folder, rig, plan.spec)
@@ -145,6 +143,18 @@ def _tested(
     result = outcome(rig, spec)
     give_back_memory()
     return rig, result
+
+
+def _draw_network(path: Path, specimen: AnySpecimen) -> None:
+    """Write the picture of the fracture networks of a specimen."""
+    if isinstance(specimen, Specimen):
+        from ..report.rose import rose_picture
+
+        rose_picture(path, specimen)
+    else:
+        from ..report.stereonet import stereonet_picture
+
+        stereonet_picture(path, specimen)
 
 
 def _leave(folder: Path, rig: TestRig, spec: RunSpec) -> None:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +18,7 @@ from ..files import remove_earlier
 from ..results.solids.state import SolidSnapshot
 from ..text import label_of
 from .maps import MINERALS, crack_segments, draw_scale_bar
-from .style import COLOURS, STYLE, can_be_drawn, colour_limits, save
+from .style import COLOURS, CYCLE, STYLE, can_be_drawn, colour_limits, save
 
 #: Where the eye is, far away, in space.
 _EYE = np.array([0.42, -0.80, 0.43])
@@ -39,6 +39,8 @@ _GRAINS = np.array(
     ]
 )
 _EDGE = (0.25, 0.23, 0.22)
+#: Most joints that a legend names.
+_MOST_NAMES = 8
 
 
 def outside_picture(
@@ -47,6 +49,7 @@ def outside_picture(
     faces: Sequence[IntArray],
     grains: IntArray,
     caption: str = "",
+    traces: Mapping[str, IntArray] | None = None,
 ) -> None:
     """Plot the visible faces of a convex 3D specimen, each grain in its own colour.
 
@@ -58,6 +61,7 @@ def outside_picture(
         faces: Vertices of each outer face, counter-clockwise as seen from outside.
         grains: Grain of each of these faces.
         caption: Line above the figure.
+        traces: Edges (n, 2) of each joint on the surface, by its name.
     """
     with rc_context(STYLE):
         tall = 5.6
@@ -65,6 +69,9 @@ def outside_picture(
         axes = figure.add_subplot()
         width, height = draw_faces(axes, vertices, faces, grains)
         figure.set_figwidth(max(2.6, tall * width / height + 0.4))
+        if traces:
+            _draw_traces(axes, vertices, faces, traces)
+            axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.0), ncol=2, frameon=False)
         axes.set_title(label_of(caption), fontsize=9.5, loc="left")
         save(figure, path)
 
@@ -91,10 +98,7 @@ def draw_faces(
     Returns:
         Width and height of the plotted faces [mm].
     """
-    eye = _EYE / np.linalg.norm(_EYE)
-    right = np.cross([0.0, 0.0, 1.0], eye)
-    right /= np.linalg.norm(right)
-    axes_of_picture = np.column_stack((right, np.cross(eye, right)))
+    eye, axes_of_picture = _view()
     light = _LIGHT / np.linalg.norm(_LIGHT)
     tints = _GRAINS if minerals is None else np.array([to_rgb(one) for one in MINERALS])
     seen, colours, depths = [], [], []
@@ -126,6 +130,37 @@ def draw_faces(
     axes.set_aspect("equal")
     axes.set_axis_off()
     return float(width), float(height)
+
+
+def _view() -> tuple[FloatArray, FloatArray]:
+    """Direction to the viewer, and the directions (3, 2) to the right and upwards."""
+    eye: FloatArray = _EYE / np.linalg.norm(_EYE)
+    right = np.cross([0.0, 0.0, 1.0], eye)
+    right /= np.linalg.norm(right)
+    return eye, np.column_stack((right, np.cross(eye, right)))
+
+
+def _draw_traces(
+    axes: Axes,
+    vertices: FloatArray,
+    faces: Sequence[IntArray],
+    traces: Mapping[str, IntArray],
+) -> None:
+    """Plot the edges of joints that belong to a face towards the viewer."""
+    eye, axes_of_picture = _view()
+    shown: set[tuple[int, int]] = set()
+    for face in faces:
+        corners = vertices[face]
+        normal = np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0)
+        if normal @ eye > 0.0:
+            ends = zip(face.tolist(), np.roll(face, -1).tolist(), strict=True)
+            shown |= {(min(pair), max(pair)) for pair in ends}
+    for number, (name, edges) in enumerate(traces.items()):
+        seen = [pair for pair in edges.tolist() if tuple(pair) in shown]
+        lines = 1e3 * vertices[np.array(seen, dtype=int).reshape(-1, 2)] @ axes_of_picture
+        colour = CYCLE[number % len(CYCLE)]
+        label = label_of(f"joint {name}") if number < _MOST_NAMES else None
+        axes.add_collection(LineCollection(list(lines), colors=colour, linewidths=1.8, label=label))
 
 
 def draw_solid(path: Path | str, snapshot: SolidSnapshot, caption: str = "") -> None:

@@ -37,8 +37,8 @@ _TESTS = tuple(KINDS)
 _CHANGES = tuple(f"set.{name}" for name in UNITS)
 #: Keys that name files: a saved specimen, lines of joints, and a fracture network.
 _FILES = ("specimen", "joints", "network")
-#: Keys of how a map of joints is read, by the options of the command.
-_OF_MAPS = {"joint_name": "name", "joint_origin": "origin"}
+#: Keys of how a file of joints is read, by the options of the command.
+_OF_MAPS = {"joint_name": "name", "joint_origin": "origin", "joint": "joint"}
 #: Keys that say how a specimen is cut, which no run asks for: it has the specimen.
 _CUTS = (*_FILES, *_OF_MAPS, "network_seed")
 #: Keys of what a run writes beside its results; they are no inputs of it.
@@ -169,8 +169,9 @@ def make(inputs: Table, base: Path) -> Job:
             require_text(f"study {key}", used[key])
             if key in _FILES or used[key].endswith(".toml"):
                 used[key] = str(base / used[key])
-    if "joint_name" in used:
-        require_text("study joint_name", used["joint_name"])
+    for key in ("joint_name", "joint"):
+        if key in used:
+            require_text(f"study {key}", used[key])
     if "joint_origin" in used:
         used["joint_origin"] = _place("study joint_origin", used["joint_origin"])
     model = used.get("model", RunSpec.model)

@@ -146,6 +146,29 @@ def test_joints(package_parent, tmp_path):
 
 
 @pytest.mark.long
+def test_jointed_core(package_parent, tmp_path):
+    text = printed("jointed_core.py", package_parent, str(tmp_path))
+    found = re.findall(r"sliding at ([\d.]+) MPa, plane of weakness ([\d.]+) MPa", text)
+    assert len(found) == 3
+    assert text.count("deviation 0 m") == 3
+    for stress, plane in found:
+        assert float(stress) == pytest.approx(float(plane), rel=0.02)
+
+
+def test_wedge(package_parent):
+    """The factor of Hoek and Bray is met within a degree, the acceleration within 1 %."""
+    text = printed("wedge.py", package_parent)
+    assert "friction angle of 30.95 degrees" in text
+    found = re.findall(
+        r"limit ([+-]\d) degrees: slip +(-?[\d.]+) nm in 1 ms, rigid wedge ([\d.]+)", text
+    )
+    slips = {int(beyond): (float(slip), float(free)) for beyond, slip, free in found}
+    assert abs(slips[1][0]) < 0.1
+    for beyond in (-1, -3):
+        assert slips[beyond][0] == pytest.approx(slips[beyond][1], rel=0.01)
+
+
+@pytest.mark.long
 def test_fracture_network(package_parent, tmp_path):
     """Two networks at two dips: joints near 60 degrees slide, level ones hardly weaken."""
     text = printed("fracture_network.py", package_parent, str(tmp_path), "2", "0,60")

@@ -13,12 +13,17 @@ from hypothesis import strategies as st
 from refusals import refusal
 
 import flexpm
+from flexpm.cli import main as cli
 from flexpm.joints.disc_network import Box, DiscNetwork
 from flexpm.joints.disc_radii import RADII
 from flexpm.joints.planes import JointPlane, disc, normal_of
 from flexpm.joints.poles import Fisher, statistics
+from flexpm.report.stereonet import great_circle, projected
 from flexpm.results import doubts
+from flexpm.specimens.files.source import SpecimenSource
 from flexpm.specimens.space import cuts, file
+from flexpm.specimens.space.spec import SolidSpec
+from flexpm.specimens.spec import SpecimenSpec
 
 SIDES = (0.012, 0.012, 0.016)
 PLANE = {"point": (0.006, 0.006, 0.008), "dip": 50.0, "dip_direction": 30.0}
@@ -223,6 +228,53 @@ def test_polygons_discs_and_planes_are_read_from_files(box, tmp_path):
         assert np.array_equal(one.cells.vertices, made[0].cells.vertices)
 
 
+POLYGONS = """nPolygons: 2
+4 {-1, -1, 0.001} {1, -1, 0.001} {1, 1, 0.001} {-1, 1, 0.001}
+3 {-1, 0, -1} {1, 0, -1} {0, 0, 1e-3}
+"""
+
+
+def test_polygons_of_dfnworks_are_read_about_the_middle(box, tmp_path):
+    polygons, out = tmp_path / "polygons.dat", tmp_path / "out"
+    polygons.write_text(POLYGONS)
+    cut = box.joints_from_dfnworks(polygons, "f")
+    assert [one.name for one in cut.planes] == ["f", "f"]
+    assert cut.planes[0].offset == pytest.approx(0.5 * SIDES[2] + 0.001)
+    assert cut.planes[1].corners[2] == pytest.approx((0.006, 0.006, 0.009))
+    call = ["specimen", "box", "--width", "0.012", "--depth", "0.012", "--height", "0.016"]
+    call += ["--quiet", "--joints", str(polygons), "--joint", "f", "--out", str(out)]
+    assert cli.main(call) == 0
+    found = flexpm.Specimen.load_solid(out / "solid.json")
+    assert found.planes == cut.planes
+    assert np.array_equal(found.cells.vertices, cut.cells.vertices)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "first line = '', must be 'nPolygons: N' before N polygons"),
+        (POLYGONS.replace("2", "3", 1), "must be 'nPolygons: N' before N polygons, of which the"),
+        (POLYGONS.replace("4 {", "5 {"), "number of corners = '5', must be 4"),
+        (POLYGONS.replace("1e-3", "nan"), "line 3: corner = '0, 0, nan', must be three numbers"),
+        (POLYGONS.replace("1e-3", "1, 2"), "corner = '0, 0, 1, 2', must be three numbers"),
+        (POLYGONS.replace("1e-3", "-1"), "area = 0 m2, must be above 0"),
+    ],
+)
+def test_files_of_no_polygons_are_refused(box, tmp_path, text, words):
+    (tmp_path / "a.dat").write_text(text)
+    refusal(words, box.joints_from_dfnworks, tmp_path / "a.dat", "f")
+
+
+def test_polygons_of_dfnworks_need_a_name_and_a_3d_specimen(tmp_path):
+    polygons = tmp_path / "a.dat"
+    polygons.write_text(POLYGONS)
+    solid, plane = SolidSpec("box"), SpecimenSpec("rectangle")
+    read = SpecimenSource.read
+    refusal("joint = None, must be the name of the joint", read, solid, joints=polygons)
+    refusal("joint = f, needs polygons of dfnWorks", read, solid, joint="f")
+    refusal("polygons of dfnWorks are available in 3D only", read, plane, joint="f")
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -331,6 +383,58 @@ def meets(one: JointPlane, places):
     for corner, (along, across) in zip(corners, turned, strict=True):
         inside &= (places - corner) @ [-across, along] * np.sign(z) > 0.0
     return inside & (height > 0.0) & (height < 0.02)
+
+
+@given(st.floats(0.0, 90.0), st.floats(0.0, 360.0))
+def test_a_stereonet_has_equal_areas_on_the_lower_hemisphere(dip, direction):
+    """A pole is opposite to the dip direction, and its cap has the area of its circle."""
+    ((x, y),) = projected(np.array([normal_of(dip, direction)]))
+    cap = 2.0 * math.pi * (1.0 - math.cos(math.radians(dip)))
+    assert math.pi * (x * x + y * y) == pytest.approx(0.5 * cap, abs=1e-12)
+    away = math.radians(direction)
+    assert x * math.cos(away) - y * math.sin(away) == pytest.approx(0.0, abs=1e-12)
+    if dip < 90.0:  # else both ends of the pole are on the rim
+        assert x * math.sin(away) + y * math.cos(away) <= 1e-12
+    circle = great_circle(dip, direction)
+    assert np.hypot(*circle.T).max() <= 1.0 + 1e-12
+    assert np.hypot(*circle[[0, -1]].T) == pytest.approx([1.0, 1.0])
+    # the lowest point of the plane is below its dip direction
+    lowest = circle[len(circle) // 2]
+    depth = math.sqrt(2.0) * math.sin(math.radians(45.0 - 0.5 * dip))
+    assert lowest == pytest.approx(depth * np.array([math.sin(away), math.cos(away)]), abs=1e-12)
+
+
+def test_the_commands_draw_a_stereonet(tmp_path):
+    network, out = tmp_path / "n.toml", tmp_path / "out"
+    network.write_text(
+        "seed = 3\n[set.a]\nkind = 'discs'\nintensity = 300.0\n"
+        "radius = {law = 'constant', value = 0.004}\n"
+        "orientation = {law = 'fisher', dip = 40, dip_direction = 100, concentration = 20}\n"
+        "[set.b]\nkind = 'planes'\ndip = 80\ndip_direction = 300\nspacing = 0.008\n"
+        "origin = [0.0, 0.0, 0.0]\n"
+    )
+    sizes = ["--width", "0.012", "--depth", "0.012", "--height", "0.016"]
+    given = [*sizes, "--quiet", "--network", str(network), "--out"]
+    assert cli.main(["specimen", "box", *given, str(out)]) == 0
+    assert (out / "network.png").stat().st_size > 10000
+    run, laws = tmp_path / "run", [f"joint.{name}.open=true" for name in "ab"]
+    call = ["run", "uniaxial", "--shape", "box", "--model", "rigid", "--max-strain", "1e-5"]
+    call += ["--rate", "16", *(word for law in laws for word in ("--set", law))]
+    assert cli.main([*call, *given, str(run)]) in (0, 3)
+    assert (run / "network.png").stat().st_size > 10000
+    assert "Fracture network" in (run / "report.html").read_text()
+
+
+def test_traces_of_a_plane_go_around_the_surface(box):
+    """The rim of a level section: four sides, all in the plane."""
+    cut = box.with_joints({"f": {**PLANE, "dip": 0.0}, "g": {**PLANE, "point": (0, 0, 0.004)}})
+    ends = cut.cells.vertices[cut.joint_traces()["f"]]
+    assert np.all(np.abs(ends[:, :, 2] - 0.008) < 1e-12)
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    # an edge belongs to one contact of the joint
+    assert math.fsum(lengths) == pytest.approx(4 * 0.012, rel=1e-9)
+    assert [*cut.joint_traces()] == ["f", "g"]
+    assert box.joint_traces() == {}
 
 
 @pytest.mark.parametrize("law", [*RADII])

@@ -276,7 +276,7 @@ def test_a_job_asks_for_what_its_inputs_are(tmp_path):
     names = {option.name for option in main.command.commands["run"].params}
     inert = {"test", "assignments", "out", "quiet", "threads", "discard_checkpoint"}
     inert |= {"seeds", "workers", "report", "specimen_file", "joints_file", "frames", "film"}
-    inert |= {"network_file", "network_seed", "joint_name", "joint_origin"}
+    inert |= {"network_file", "network_seed", "joint_name", "joint_origin", "joint"}
     assert names - inert == {*input_names.OPTIONS, "material"}
 
 

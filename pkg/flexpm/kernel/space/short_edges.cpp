@@ -69,6 +69,7 @@ private:
     const std::vector<Vector>& centres;
     double threshold;
     double limit = 0.0;                      ///< of the edges that are collapsed now
+    bool flattens = false;                   ///< whether corners move into planes: none may turn
     bool any = false;                        ///< whether an edge has been collapsed in this round
     std::vector<std::vector<int>> faces_at;  ///< faces that meet in a vertex, in order
     std::vector<int> faces_of;               ///< number of faces of each cell
@@ -94,6 +95,7 @@ private:
     void flatten_joints()
     {
         if (complex.planes.empty()) return;
+        flattens = true;
         do {
             any = false;
             std::vector<std::pair<int, int>> off;  // vertex, wall
@@ -118,6 +120,7 @@ private:
                 if (!faces_at[v].empty()) move_onto(v, wall);
             if (!any) move_together(off);
         } while (any);
+        flattens = false;
     }
 
     bool is_on(int v, int wall) const
@@ -197,7 +200,7 @@ private:
         const double allowed = worst();
         for (std::size_t k = 0; k < group.size(); ++k)
             complex.vertices[group[k]] = targets[k];
-        any = worst() <= allowed;
+        any = worst() <= std::min(allowed, 1.0);
         for (std::size_t k = 0; k < group.size(); ++k) {
             if (any)
                 complex.walls[group[k]] = walls[k];
@@ -328,8 +331,9 @@ private:
         const Vector at = std::exchange(complex.vertices[c.kept], target);
         for (std::size_t k = 0; k < c.touched.size(); ++k)
             after = std::max(after, sharpest(complex.faces[c.touched[k]], c.corners[k]));
-        if (after > before) complex.vertices[c.kept] = at;
-        return after <= before;
+        const bool kept = after <= before && (!flattens || after <= 1.0);
+        if (!kept) complex.vertices[c.kept] = at;
+        return kept;
     }
 
     /// Cosine of the smallest angle of the tetrahedra on a face.

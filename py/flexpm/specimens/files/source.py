@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from ...dimensions import refused
 from ...errors import InputError
-from ...joints import geojson, plane_files
+from ...joints import dfnworks, geojson, plane_files
 from ...joints import lines as joint_lines
 from ...joints.planes import JointPlane
 from ...progress import Progress
@@ -70,17 +70,20 @@ class SpecimenSource:
         *,
         joint_name: str | None = None,
         joint_origin: joint_lines.Point | None = None,
+        joint: str | None = None,
     ) -> SpecimenSource:
         """Read the given files.
 
         Args:
             packed: Spec of a packing; None if there is a specimen file.
             file: Specimen file.
-            joints: CSV file of joints, or in 2D a map of joints as GeoJSON.
+            joints: CSV file of joints; in 2D a map of joints as GeoJSON, in 3D polygons of
+                dfnWorks.
             network: TOML file of a fracture network.
             network_seed: Seed that replaces the network's seed.
             joint_name: Property of the map that names joints, see ``geojson.read``.
             joint_origin: Point of the map at the specimen's origin [m], see ``geojson.read``.
+            joint: Name of the joint of the polygons of dfnWorks.
 
         Returns:
             The source.
@@ -98,9 +101,14 @@ class SpecimenSource:
                 packed, outline = specimen_file.spec_of(content), content["outline"]
         assert packed is not None
         if isinstance(packed, SolidSpec):
-            return cls._of_solid(
-                packed, file, joints, network, network_seed, joint_name, joint_origin
-            )
+            if joint_name is None and joint_origin is None:
+                planes = _planes(packed, joints, joint)
+                return cls._of_solid(packed, file, planes, network, network_seed)
+            given = joint_name if joint_origin is None else joint_origin
+            asked = f"name or origin = {given}, must be left out for a {packed.kind}"
+            raise refused(asked, "joint_maps")
+        if joint is not None:
+            raise refused(f"joint = {joint}, must be left out for a {packed.kind}", "dfnworks")
         lines, origin = None, None
         notes: tuple[str, ...] = ()
         if joints is not None and joints.suffix.lower() in geojson.SUFFIXES:
@@ -128,18 +136,11 @@ class SpecimenSource:
         cls,
         packed: SolidSpec,
         file: Path | None,
-        joints: Path | None,
+        planes: tuple[JointPlane, ...],
         network: Path | None,
         network_seed: int | None,
-        *of_map: object,
     ) -> SpecimenSource:
-        """Read the planes of a 3D specimen."""
-        is_map = joints is not None and joints.suffix.lower() in geojson.SUFFIXES
-        given = [one for one in (joints if is_map else None, *of_map) if one is not None]
-        if given:
-            asked = f"joints, name or origin = {given[0]}, must be left out for a {packed.kind}"
-            raise refused(asked, "joint_maps")
-        planes = () if joints is None else tuple(plane_files.read(joints))
+        """Read the network of a 3D specimen with given planes."""
         _require_network(network, network_seed)
         if network is None:
             return cls(packed, file, planes=planes)
@@ -203,3 +204,18 @@ def _require_network(network: Path | None, seed: int | None) -> None:
     """Reject the seed of a network without a network."""
     if network is None and seed is not None:
         raise InputError(f"network_seed = {seed}, needs a network; give its file or leave it out")
+
+
+def _planes(packed: SolidSpec, joints: Path | None, joint: str | None) -> tuple[JointPlane, ...]:
+    """Read the planes of joints of a 3D specimen."""
+    suffix = None if joints is None else joints.suffix.lower()
+    if suffix in geojson.SUFFIXES:
+        raise refused(f"joints = {joints}, must be left out for a {packed.kind}", "joint_maps")
+    if joints is not None and suffix == dfnworks.SUFFIX:
+        return tuple(dfnworks.read(joints, joint, packed.middle))
+    if joint is not None:
+        raise InputError(
+            f"joint = {joint}, needs polygons of dfnWorks; give joints = a {dfnworks.SUFFIX} file, "
+            "or leave it out"
+        )
+    return () if joints is None else tuple(plane_files.read(joints))

@@ -107,7 +107,36 @@ def areas(cells: Polyhedra, planes: Sequence[JointPlane]) -> FloatArray:
     normals = np.array([one.normal for one in planes])
     seen = np.einsum("ij,ij->i", vectors[on], normals[plane[on]])
     # a face around a grain may be seen from its other side: the sides of a joint face each other
-    return np.bincount(plane[on], _senses(cells, planes)[on] * seen, len(planes))
+    signed = _senses(cells, planes)[on] * seen
+    return np.asarray(np.bincount(plane[on], signed, len(planes)), dtype=float)
+
+
+def traces(cells: Polyhedra, planes: Sequence[JointPlane]) -> dict[str, IntArray]:
+    """Return the edges (n, 2) at which the contacts of each joint meet the surface, by name."""
+    edges, faces = _edges(cells)
+    outer = edges[faces >= cells.contacts]
+    found = {}
+    for name in names_of(planes):
+        numbers = [number for number, one in enumerate(planes) if one.name == name]
+        of_joint = np.append(np.isin(cells.joints, numbers), False)
+        own = edges[of_joint[np.minimum(faces, cells.contacts)]]
+        found[name] = own[np.isin(_keys(own), _keys(outer))]
+    return found
+
+
+def _edges(cells: Polyhedra) -> tuple[IntArray, IntArray]:
+    """Edges of all faces, the smaller vertex first, (n, 2), and their faces (n,)."""
+    ends = cells.face_offsets
+    after = np.arange(len(cells.face_vertices)) + 1
+    after[ends[1:] - 1] = ends[:-1]
+    pairs = np.column_stack((cells.face_vertices, cells.face_vertices[after]))
+    return np.sort(pairs, axis=1), np.repeat(np.arange(len(ends) - 1), np.diff(ends))
+
+
+def _keys(edges: IntArray) -> IntArray:
+    """One number for each edge."""
+    keys: IntArray = edges[:, 0].astype(np.int64) << 32 | edges[:, 1]
+    return keys
 
 
 def _area_vectors(cells: Polyhedra) -> FloatArray:

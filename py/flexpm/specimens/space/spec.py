@@ -167,6 +167,12 @@ class SolidSpec:
         return (-half, 0.0, bottom), (half, sizes["depth"], half)
 
     @property
+    def middle(self) -> Vector:
+        """Middle of the box around the shape [m]."""
+        x, y, z = (0.5 * (low + high) for low, high in zip(*self.corners, strict=True))
+        return x, y, z
+
+    @property
     def joints_with_law(self) -> list[str]:
         """Names of the joints."""
         return [*(self.joint_names or ())]

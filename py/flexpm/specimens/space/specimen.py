@@ -17,7 +17,7 @@ from ..._flexpm import FanMeshes, Polyhedra, Solid, fan_meshes, weighted_cells
 from ...arrays import BoolArray, FloatArray, IntArray
 from ...errors import InputError
 from ...files import Table
-from ...joints import plane_files
+from ...joints import dfnworks, plane_files
 from ...joints.planes import JointPlane, PlanesCut, checked, names_of, require_few, require_size
 from ...progress import Progress
 from ...renamed import with_old_names
@@ -263,6 +263,21 @@ class SolidSpecimen(PlaneOnly):
                 ``with_joints``.
         """
         return self._cut_by(plane_files.read(Path(path)))
+
+    def joints_from_dfnworks(self, path: Path | str, joint: str) -> SolidSpecimen:
+        """Return the specimen cut by the polygons of dfnWorks, as ``--joints`` does.
+
+        The middle of the domain of dfnWorks is placed at the middle of the specimen.
+
+        Args:
+            path: ``polygons.dat`` of dfnWorks [m].
+            joint: Name of the joint that all polygons get.
+
+        Raises:
+            InputError: if the file cannot be read or a line is no convex polygon, and as
+                ``with_joints``.
+        """
+        return self._cut_by(dfnworks.read(Path(path), joint, self.spec.middle))
 
     def with_network(
         self,
@@ -511,6 +526,10 @@ class SolidSpecimen(PlaneOnly):
     def joint_lines(self) -> list[FloatArray]:
         """Return no lines: the joints of a 3D specimen are planes."""
         return [np.empty((0, 2, 2)) for _ in self.spec.joint_names or ()]
+
+    def joint_traces(self) -> dict[str, IntArray]:
+        """Return the edges (n, 2) at which each joint meets the surface, by name: vertices."""
+        return cuts.traces(self.cells, self.planes)
 
     def joint_deviations(self) -> dict[str, float]:
         """Return the largest distance between each joint's contacts and its planes, by name [m].
