@@ -56,7 +56,7 @@ def peak_row(curve: Curve) -> int | None:
 
 
 def still_rises(curve: Curve) -> bool:
-    """Whether the stress had passed no peak and still rose over the last tenth of the strain."""
+    """Whether the stress had no peak and still rose over the last tenth of the strain."""
     stress, strain = differential_stress(curve), curve["axial_strain"]
     if len(stress) == 0 or not np.all(np.isfinite(stress)) or peak_row(curve) is not None:
         return False

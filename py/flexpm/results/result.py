@@ -156,7 +156,7 @@ class Result(Shown):
 
     @property
     def failed(self) -> bool:
-        """Whether the simulation failed: it diverged or passed no peak."""
+        """Whether the simulation failed: it diverged or had no peak."""
         without = self.status != "ok" and self.peak_stress is None
         return self.status in FAILED or (without and kind_of(self.test).needs_peak)
 

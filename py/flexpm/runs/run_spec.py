@@ -45,7 +45,7 @@ _REAL_MASSES = 1
 _MINERALS = 1
 #: Part of the results number of runs of 3D specimens; 1: contacts of rigid grains read the motions
 #: of the grains, not those of their nodes, and the elastic start has another preconditioner. Both
-#: change the rounding. 2: grains that meet anew press on each other.
+#: change the rounding. 2: contact forces act between unbonded grains.
 _SOLIDS = 2
 
 

@@ -25,7 +25,7 @@ _NOTCH, _DISTANCE = 0.2, 0.4
 _FEWEST_GRAINS = 4.0
 #: Least distance of the pairs from each other and from the sides, in mean diameters [-].
 _LEAST_DISTANCE = 3.0
-#: Notches are slots whose faces do not meet: what presses across goes through the bridges.
+#: Notches are slots whose faces carry no load: the bridges carry the whole normal force.
 _SLOT = {"open": True, "friction": 0.0, "normal_stiffness": 1e6, "shear_stiffness": 1e6}
 
 

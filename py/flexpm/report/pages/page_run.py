@@ -310,7 +310,7 @@ def _reading(result: Result) -> str:
     """Return a sentence on the validity of the numbers for the rock."""
     if not kind_of(result.test).quasi_static:
         return ""
-    lines = ["Fragments are counted at the end of the test, while they move; at rest fewer remain."]
+    lines = ["Fragments are counted at the end of the test, while they move; more may form."]
     if result.confinement:
         lines.append(
             "Under a confining pressure only the peak is valid: the curve after the peak also "
