@@ -51,6 +51,12 @@ FEATURES = {
         ("joints_from_dfnworks of a 3D specimen", "--joints with a .dat file", "--joint"),
         "give lines as a CSV file or a map, or take a 3D specimen",
     ),
+    "removed_grains": Feature(
+        "specimens without some of their grains",
+        3,
+        ("without_grains of a 3D specimen",),
+        "erase grains after flexpm.build, or take a 3D specimen",
+    ),
     "excavation": Feature(
         "excavations",
         2,

@@ -113,7 +113,8 @@ def check_options(
     require_flag("build: bonded", bonded)
     if not bonded and model not in SOLID_MODELS:
         raise InputError(
-            f"build: bonded = False, must be True for model {model}; use {' or '.join(SOLID_MODELS)}"
+            f"build: bonded = False, must be True for model {model}; "
+            f"use {' or '.join(SOLID_MODELS)}"
         )
     if interaction_range is not None:
         require_number("build: interaction_range", interaction_range, RANGE)

@@ -179,17 +179,49 @@ def draw_solid(path: Path | str, snapshot: SolidSnapshot, caption: str = "") -> 
     with rc_context(STYLE):
         figure = Figure(figsize=(7.2, 5.2), layout="constrained")
         outside, cut = figure.subplots(1, 2)
+        faces, grains = _shown_faces(snapshot)
         draw_faces(
             outside,
             snapshot.positions,
-            list(snapshot.surface),
-            snapshot.surface_grain,
+            list(faces),
+            grains,
             edges=False,
             minerals=snapshot.grain_mineral,
         )
         _draw_section(figure, cut, snapshot)
         figure.suptitle(label_of(caption), fontsize=9.5)
         save(figure, path)
+
+
+def _shown_faces(snapshot: SolidSnapshot) -> tuple[IntArray, IntArray]:
+    """Triangles of the surface and, of grains with a cracked contact, all that bound the grain.
+
+    Cracked faces may have moved apart. Triangles of faces that still lie on each other are hidden
+    by those in front of them.
+
+    Returns:
+        Nodes (n, 3), counter-clockwise as seen from outside, and the grain of each triangle.
+    """
+    cracked = ~snapshot.any_of(snapshot.point_damage < 1.0)
+    torn = np.unique(snapshot.contact_grains[cracked])
+    chosen = np.isin(snapshot.tetrahedron_grain, torn)
+    nodes = snapshot.tetrahedra[chosen]
+    faces = np.concatenate([np.delete(nodes, opposite, axis=1) for opposite in range(4)])
+    apexes = nodes.T.ravel()
+    of_grain = np.tile(snapshot.tetrahedron_grain[chosen], 4)
+    _, first, counts = np.unique(
+        np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True
+    )
+    outer = first[counts == 1]
+    faces, apexes, of_grain = faces[outer], apexes[outer], of_grain[outer]
+    a, b, c = (snapshot.positions[faces[:, k]] for k in range(3))
+    inside = np.einsum("ij,ij->i", np.cross(b - a, c - a), snapshot.positions[apexes] - a) > 0.0
+    faces[inside] = faces[inside][:, ::-1]
+    kept = ~np.isin(snapshot.surface_grain, torn)
+    return (
+        np.vstack((snapshot.surface[kept], faces)),
+        np.concatenate((snapshot.surface_grain[kept], of_grain)),
+    )
 
 
 def _draw_section(figure: Figure, axes: Axes, snapshot: SolidSnapshot) -> None:

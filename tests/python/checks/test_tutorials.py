@@ -168,6 +168,17 @@ def test_wedge(package_parent):
         assert slips[beyond][0] == pytest.approx(slips[beyond][1], rel=0.01)
 
 
+@pytest.mark.slow
+def test_collapse(package_parent, tmp_path):
+    """The pile is wider than the column, and comes to rest."""
+    text = printed("collapse.py", package_parent, str(tmp_path))
+    widths = [float(width) for width in re.findall(r"floor, ([\d.]+) mm wide", text)]
+    speeds = [float(speed) for speed in re.findall(r"mean speed ([\d.]+) mm/s", text)]
+    assert widths[-1] > 1.3 * widths[0]
+    assert speeds[-1] < 0.1 * max(speeds)
+    assert (tmp_path / "collapse.png").stat().st_size > 10_000
+
+
 @pytest.mark.long
 def test_fracture_network(package_parent, tmp_path):
     """Two networks at two dips: joints near 60 degrees slide, level ones hardly weaken."""

@@ -73,7 +73,8 @@ def test_a_block_slides_on_a_3d_joint_as_coulomb_says_or_not_at_all(model, beyon
         assert abs(slid) < 1e-8
     else:
         assert len(built.solver.pairs()["grains"]) > 10
-        assert slid - speed * time == pytest.approx(0.5 * gain * time**2, rel=0.03)
+        # 1 % of the friction, by which a hand-over changes it, is 2 % of the acceleration
+        assert slid - speed * time == pytest.approx(0.5 * gain * time**2, rel=0.05)
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +93,7 @@ def test_a_column_without_bonds_collapses_and_keeps_its_energy(column):
     hold(built, lambda x, y, z: z < 4e-3)
     free = column.centres[:, 2] > 4e-3
     before = middle_of(built, free)
-    built.run(8000)
+    built.run(1500)
     energies = built.solver.energies()
     fallen = middle_of(built, free) - before
     assert fallen[2] < -1e-3
@@ -114,7 +115,7 @@ def test_contacts_without_bonds_press_and_do_not_pull(solid, model, column):
         if solid
         else flexpm.Specimen.rectangle(0.01, 0.02, thickness=0.01, seed=1)
     )
-    forces = {}
+    height, forces = specimen.extent["height"], {}
     for bonded in (True, False):
         for sign in (-1.0, 1.0):
             yade.O.reset()
@@ -122,15 +123,13 @@ def test_contacts_without_bonds_press_and_do_not_pull(solid, model, column):
             built = flexpm.build(specimen, material, model, bonded=bonded)
             rig = flexpm.PartRig(built)
             up = np.array([0.0, 0.0, 1.0] if solid else [0.0, 1.0])
-            height = specimen.extent["height"]
-            low = rig.hold(where=lambda *at: at[-1] < 0.3 * height)
+            rig.hold(where=lambda *at: at[-1] < 0.3 * height)
             high = rig.hold(where=lambda *at: at[-1] > 0.7 * height)
-            rig.settle()
+            built.set_masses()
             high.move(tuple(sign * 1e-9 * height * up))
             built.run(400)
-            forces[bonded, sign] = -sign * float(np.dot(high.force, up))
+            forces[bonded, sign] = sign * float(np.dot(high.force, up))
             assert built.solver.cracks() == (0, 0)
-            del low
     assert forces[True, 1.0] == pytest.approx(forces[True, -1.0], rel=0.1)
     assert forces[False, -1.0] > 0.3 * forces[True, -1.0]
     assert abs(forces[False, 1.0]) < 0.02 * forces[True, 1.0]
