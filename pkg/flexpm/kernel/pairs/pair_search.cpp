@@ -53,6 +53,7 @@ struct FaceLoad {
     double shear_energy = 0.0;     ///< [J]
     double damage = 0.0;           ///< dissipated [J]
     double friction = 0.0;         ///< [J]
+    double closure = 0.0;          ///< largest elastic closure of a point [m]
     Vector force;                  ///< on the second grain [N]
 };
 
@@ -68,6 +69,8 @@ FaceLoad load_of(const SolidState& s, int contact)
         const Point slip = places[p].slip - state.plastic_slip;
         const double shear = 0.5 * law.shear_stiffness * dot(slip, slip);
         load.pressure_energy += area * (whole - shear);
+        const double closure = std::sqrt(2.0 * std::max(whole - shear, 0.0) / law.normal_stiffness);
+        if (closure > load.closure) load.closure = closure;
         load.shear_energy += area * shear;
         load.damage += area * state.damage_energy;
         load.friction += area * state.friction_energy;
@@ -251,16 +254,29 @@ void find_clearances(SolidState& s)
     }
 }
 
-/// Clearance at which a pair stores an energy over K_n, or none of it where the bodies have too little
-/// in common.
+/// Clearance at which a pair stores an energy over K_n. Bodies are enlarged by no more than the
+/// closure of the contact: where they have little in common, they store less of it.
 double clearance_of(SpaceOverlap& overlap, const ContactBody& a, const ContactBody& b,
-    double energy, double diameter)
+    double energy, double closure)
 {
-    constexpr double farthest = 0.05;  // over the diameter
     if (!(energy > 0.0) || !std::isfinite(energy)) return overlap.birth_clearance(a, b);
-    const double most = overlap.measure(a, b, -farthest * diameter).energy;
-    if (!(most > energy)) return overlap.birth_clearance(a, b);
+    if (!(overlap.measure(a, b, -closure).energy > energy)) return -closure;
     return overlap.clearance_for(a, b, energy);
+}
+
+/// Faces of contacts that have ended can be pressed from now on: this must store no energy in other
+/// pairs of their grains. Pairs that do not press begin anew, and bodies are not enlarged any more.
+void open_faces(SolidState& s, const std::vector<int>& ended)
+{
+    std::vector<std::uint8_t> opens(s.grains.count, 0);
+    for (int contact : ended)
+        for (int grain : s.contacts.pairs[contact])
+            opens[grain] = 1;
+    for (PairContact& pair : s.pairs) {
+        if (!opens[pair.grains[0]] && !opens[pair.grains[1]]) continue;
+        pair.clearance = pair.presses() ? std::max(pair.clearance, 0.0)
+                                        : std::numeric_limits<double>::infinity();
+    }
 }
 
 /// Let the pair of a contact that has ended take over what it stores and bears.
@@ -276,8 +292,8 @@ void take_over(SolidState& s, int contact, const FaceLoad& load)
     const PairWork& work = s.plan.pairs.pairs[number];
     const auto body = [&](int k) { return s.plan.pairs.bodies[work.bodies[k]].view(); };
     thread_local SpaceOverlap overlap;
-    pair->clearance = clearance_of(overlap, body(0), body(1),
-        load.pressure_energy / law.normal_stiffness, mean_diameter(s.grains));
+    pair->clearance = clearance_of(
+        overlap, body(0), body(1), load.pressure_energy / law.normal_stiffness, load.closure);
     const BodyOverlap now = overlap.measure(body(0), body(1), pair->clearance);
     if (!(now.area > 0.0) || !(load.pressure_energy > 0.0)) return;
     Vector on_b;
@@ -331,6 +347,7 @@ bool look_for_pairs(SolidState& s)
     replace_pairs(s, can_meet ? near_pairs(s, free) : std::vector<GrainPair> {});
     prepare_pairs(s);
     stored += energy_of(s.pairs);
+    open_faces(s, parted);
     for (std::size_t i = 0; i < parted.size(); ++i)
         take_over(s, parted[i], loads[i]);
     find_clearances(s);
