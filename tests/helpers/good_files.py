@@ -17,7 +17,7 @@ from neper_solids import tess_text as solid_text
 from PIL import Image
 
 from flexpm import materials
-from flexpm.joints import geojson, lines, plane_files
+from flexpm.joints import dfnworks, geojson, lines, plane_files
 from flexpm.joints.disc_network import Box, DiscNetwork
 from flexpm.joints.network import Network
 from flexpm.joints.window import Window
@@ -43,6 +43,10 @@ JOINTS = (
     "x1,y1,x2,y2,name\n0,0.01,0.01,0.02,fault\n0.01,0.02,0.02,0.02,fault\n0,0,0.004,0.02,bed-1\n"
 )
 DISCS = "x,y,z,dip,dip_direction,radius,name\n0.004,0.004,0.006,50,30,0.004,bedding\n"
+POLYGONS = """nPolygons: 2
+4 {-1, -1, 0.001} {1, -1, 0.001} {1, 1, 0.001} {-1, 1, 0.001}
+3 {-1, 0, -1} {1, 0, -1} {0, 0, 1e-3}
+"""
 DISC_NETWORK = """seed = 3
 
 [set.bedding]
@@ -213,6 +217,7 @@ TEXTS = {
     ),
     "joints.csv": JOINTS,
     "discs.csv": DISCS,
+    "polygons.dat": POLYGONS,
     "discs.toml": DISC_NETWORK,
     "history.csv": HISTORY,
     "spheres.txt": SPHERES,
@@ -294,6 +299,7 @@ READERS: dict[str, Callable[[Path], Any]] = {
     "a.geojson": geojson.read,
     "joints.csv": lines.read,
     "discs.csv": plane_files.read,
+    "polygons.dat": lambda path: dfnworks.read(path, "bedding", (0.0, 0.0, 0.0)),
     "discs.toml": lambda path: DiscNetwork.read(path).planes(Box((0, 0, 0), (0.01, 0.01, 0.02))),
     "history.csv": lambda path: history_of(path, None, "N"),
     "spheres.txt": lambda path: sphere_rows(path).tolist(),

@@ -17,7 +17,7 @@ WORDS = st.sampled_from(
     constant waiting box cylinder solid-disc solid-half-disc p s
     axial lateral displacement cmod gif augig-table7 augig-table2-brittle
     nofile.toml material.toml phases.toml network.toml joints.csv a.geojson grains.json solid.json
-    discs.csv discs.toml
+    discs.csv discs.toml polygons.dat
     grey.png volume.npy uint8 grains phases exact um""".split()
 )
 TEXTS = st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters="\0"), max_size=6)
@@ -35,7 +35,7 @@ VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --po
     --voxel --counts --coarsen --least-voxels --crop""".split()
 FLAGS = ["--dynamic", "--discard-checkpoint", "--no-report", "--help", "--nothing", "--watershed"]
 NAMED = """--model --material --mesh --start --loading --wave --sides --control --film --specimen
-    --joints --minerals --name --network --phases --shape
+    --joints --joint --minerals --name --network --phases --shape
     --models --unindexed --size --rock
     --array --dtype --minerals-array --minerals-dtype --labels --unit --volumes --new""".split()
 #: Options that are given below, or that lead to other files, long work or other machines.
@@ -55,6 +55,7 @@ SETS_OPEN = ("--set", "joint.bedding.open=true", "--set", "joint.steep.open=true
 READ_3D = (
     ("--joints", "discs.csv", "--set", "joint.bedding.open=true"),
     ("--network", "discs.toml", *SETS_OPEN),
+    ("--joints", "polygons.dat", "--joint", "bedding", "--set", "joint.bedding.open=true"),
 )
 #: Files of a run in 2D.
 READ_2D = (
@@ -89,7 +90,7 @@ COMMANDS = st.sampled_from(
         ("specimen", "table", "grains.csv"),
         *(("run", test, *file) for test in ("uniaxial", "bending") for file in READ_2D),
         *(("run", "uniaxial", "--shape", "box", *file) for file in READ_3D),
-        *(("specimen", "box", *file[:2]) for file in READ_3D),
+        *(("specimen", "box", *file[: file.index("--set")]) for file in READ_3D),
         *(("run", test, "--specimen", "solid.json") for test in ("uniaxial", "triaxial", "shear")),
         *((name, "nofile.toml") for name in ("study", "calibrate", "scorecard", "rerun", "report")),
         *(("compare", "uniaxial"), ("compare", "bending"), ("elastic",), ("bench",), ("run",), ()),

@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 import pytest
+from good_files import POLYGONS
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from refusals import refusal
@@ -226,12 +227,6 @@ def test_polygons_discs_and_planes_are_read_from_files(box, tmp_path):
     assert [one.planes[0].kind for one in made] == ["polygon", "disc", "plane"]
     for one in made:
         assert np.array_equal(one.cells.vertices, made[0].cells.vertices)
-
-
-POLYGONS = """nPolygons: 2
-4 {-1, -1, 0.001} {1, -1, 0.001} {1, 1, 0.001} {-1, 1, 0.001}
-3 {-1, 0, -1} {1, 0, -1} {0, 0, 1e-3}
-"""
 
 
 def test_polygons_of_dfnworks_are_read_about_the_middle(box, tmp_path):
