@@ -7,7 +7,7 @@ metres per step. Only slow loading is meaningful then.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar, Unpack, cast
 
 import numpy as np
@@ -24,6 +24,7 @@ from ..materials.material import load as load_material
 from ..renamed import with_old_names
 from ..require import require_one_of, require_threads
 from ..results.snapshot import Snapshot
+from ..results.solids.pairs import PressingPairs
 from ..results.solids.state import AnySnapshot, SolidSnapshot
 from ..results.stress.point_stress import OF_GRAINS, OF_TRIANGLES
 from ..specimens import mineral_map
@@ -248,7 +249,8 @@ class SolidModel(Model):
 
     def snapshot(self) -> SolidSnapshot:
         """Return the present state as plain arrays."""
-        return self.state_of(self.solver.snapshot())
+        pairs = PressingPairs.of(self.solver.pairs())
+        return replace(self.state_of(self.solver.snapshot()), pairs=pairs)
 
     def state_of(self, found: Table) -> SolidSnapshot:
         """Return a state of this 3D specimen, from its arrays."""

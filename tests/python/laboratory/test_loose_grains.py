@@ -72,7 +72,9 @@ def test_a_block_slides_on_a_3d_joint_as_coulomb_says_or_not_at_all(model, beyon
     if beyond < 0.0:
         assert abs(slid) < 1e-8
     else:
-        assert len(built.solver.pairs()["grains"]) > 10
+        known, state = built.solver.pairs(), built.snapshot()
+        assert len(known["grains"]) > 10
+        assert np.array_equal(state.pairs.force, known["force"][known["normal_force"] > 0.0])
         # 1 % of the friction, by which a hand-over changes it, is 2 % of the acceleration
         assert slid - speed * time == pytest.approx(0.5 * gain * time**2, rel=0.05)
 

@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 import yade
 from solid_state import sample
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDataArray
+from vtkmodules.vtkCommonDataModel import VTK_VERTEX
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import flexpm
@@ -17,6 +20,7 @@ from flexpm.results.emission import EventRule, events_csv, find_events, read_eve
 from flexpm.results.record import Curve
 from flexpm.results.snapshot import triangle_areas
 from flexpm.results.solids import state as solid_state_module
+from flexpm.results.solids.pairs import PressingPairs
 from flexpm.results.vtu import read_state, read_vtu, write_vtu
 
 
@@ -87,6 +91,43 @@ def test_a_file_of_a_state_reads_back(box, tmp_path):
     assert triangle_areas(plane).sum() == pytest.approx(0.012 * 0.018, rel=1e-9)
 
 
+def drawn_pairs(state, count=7):
+    """Pairs with drawn values, between the centres of grains without a common face."""
+    draw = np.random.default_rng(3)
+    grains = np.column_stack((np.arange(count), 30 + np.arange(count)))
+    rows = [draw.random(count) for _ in range(5)]
+    return PressingPairs(
+        grains, state.centres[grains].mean(axis=1), draw.normal(size=(count, 3)), *rows
+    )
+
+
+def test_pairs_are_points_of_the_file_and_read_back(box, tmp_path):
+    state = sample(box, strain=-0.01, cracked=0.3)
+    plain = dataclasses.replace(state)
+    state = dataclasses.replace(state, pairs=drawn_pairs(state))
+    write_vtu(tmp_path / "a.vtu", state)
+    write_vtu(tmp_path / "plain.vtu", plain)
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(tmp_path / "a.vtu"))
+    reader.Update()
+    grid = reader.GetOutput()
+    kinds = vtk_to_numpy(grid.GetCellData().GetArray("kind"))
+    assert np.bincount(kinds).tolist() == [len(state.tetrahedra), len(state.contact), 7]
+    assert {grid.GetCellType(len(kinds) - 1 - k) for k in range(7)} == {VTK_VERTEX}
+    force = grid.GetCellData().GetArray("pair_force")
+    assert np.array_equal(vtk_to_numpy(force)[-7:], state.pairs.force)
+    assert force.GetInformation().Get(vtkDataArray.UNITS_LABEL()) == "N"
+    # the points move with both grains
+    moved = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))[-7:]
+    assert moved[:, 2] == pytest.approx(-0.01 * state.pairs.position[:, 2] / 0.99)
+    found, without = read_state(tmp_path / "a.vtu"), read_state(tmp_path / "plain.vtu")
+    for name in (one.name for one in dataclasses.fields(PressingPairs)):
+        assert np.array_equal(getattr(found.pairs, name), getattr(state.pairs, name))
+    assert len(without.pairs) == 0
+    for name in ("positions", "corners", "corner_offsets", "areas", "volumes", "crack_step"):
+        assert np.array_equal(getattr(found, name), getattr(without, name))
+
+
 def test_a_file_is_written_in_turn_as_vtk_writes_it_at_once(box, tmp_path):
     """Array by array, to the byte: of numbers that are none, texts, and arrays without a unit."""
     state = sample(box, strain=0.01)
@@ -96,6 +137,7 @@ def test_a_file_is_written_in_turn_as_vtk_writes_it_at_once(box, tmp_path):
         velocities=draw.normal(size=state.velocities.shape),
         tetrahedron_stress=draw.normal(size=state.tetrahedron_stress.shape),
         grain_mineral=np.arange(len(state.volumes)) % 3,
+        pairs=drawn_pairs(state),
     )
     about = {"test": "uniaxial", "seed": 3, "confinement": 0.0, "none": None}
     for told in (about, {}):
@@ -103,7 +145,9 @@ def test_a_file_is_written_in_turn_as_vtk_writes_it_at_once(box, tmp_path):
         reader = vtkXMLUnstructuredGridReader()
         reader.SetFileName(str(tmp_path / "in_turn.vtu"))
         reader.Update()
-        assert reader.GetOutput().GetNumberOfCells() == len(state.tetrahedra) + len(state.contact)
+        assert (
+            reader.GetOutput().GetNumberOfCells() == len(state.tetrahedra) + len(state.contact) + 7
+        )
         vtu_arrays.write_grid(tmp_path / "at_once.vtu", reader.GetOutput())
         assert (tmp_path / "in_turn.vtu").read_bytes() == (tmp_path / "at_once.vtu").read_bytes()
 

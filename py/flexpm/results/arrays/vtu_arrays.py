@@ -16,7 +16,7 @@ from ...files import whole_file
 from ...text import printable
 from .vtu_reader import silence
 
-GRAIN, CONTACT = 0, 1  #: values of the cell array `kind`
+GRAIN, CONTACT, PAIR = 0, 1, 2  #: values of the cell array `kind`; pairs only of 3D states
 
 #: Unit of each array that has one.
 UNITS = {
@@ -27,6 +27,9 @@ UNITS = {
     **dict.fromkeys(("principal_stress_1", "principal_stress_2"), "Pa"),
     **dict.fromkeys(("normal_traction", "shear_traction"), "Pa"),
     **dict.fromkeys(("point_normal_traction", "point_shear_traction"), "Pa"),
+    **dict.fromkeys(("pair_force", "pair_normal_force"), "N"),
+    **dict.fromkeys(("pair_depth", "pair_clearance"), "m"),
+    "pair_friction_energy": "J",
 }
 
 TENSOR = ("XX", "YY", "ZZ", "XY", "YZ", "XZ")

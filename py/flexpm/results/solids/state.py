@@ -6,7 +6,7 @@ Stress, traction and opening are positive in tension.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +16,7 @@ from ..fragments import Fragments, connected
 from ..snapshot import Snapshot
 from ..stress.point_stress import OF_TRIANGLES
 from ..stress.tensors import means_by
+from .pairs import PressingPairs
 
 #: Axes of a section in space: across, and along the load.
 _PLANE = (0, 2)
@@ -67,6 +68,8 @@ class SolidSnapshot:
     stress_source: str = (
         OF_TRIANGLES  #: what the stress of a tetrahedron is: its own or its grain's
     )
+    #: Pairs of grains that press on each other without a common face.
+    pairs: PressingPairs = field(default_factory=PressingPairs.none)
 
     #: No bond of a solid is erased.
     erased_contact = erased_grains = erased_point_bond = erased_crack_step = None
@@ -136,6 +139,12 @@ class SolidSnapshot:
             for begin in range(0, len(stress), _AT_ONCE):  # as matrices they take three times more
                 part = slice(begin, begin + _AT_ONCE)
                 found[part] = np.linalg.eigvalsh(stress[part, rows].reshape(-1, 3, 3))
+        return found
+
+    @property
+    def centre_displacements(self) -> FloatArray:
+        """Displacement of the centre of each grain, (G, 3) [m]."""
+        found: FloatArray = self.centres - self.reference[self.node_offsets[1:] - 1]
         return found
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""ParaView files of solids: grains as tetrahedra, contacts as polygons, in one .vtu. SI units.
+"""ParaView files of solids: tetrahedra of grains, polygons of contacts, points of pairs. SI units.
 
 Stress, traction and opening are positive in tension.
 """
@@ -7,27 +7,30 @@ Stress, traction and opening are positive in tension.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkDataArray
-from vtkmodules.vtkCommonDataModel import VTK_POLYGON, VTK_TETRA
+from vtkmodules.vtkCommonDataModel import VTK_POLYGON, VTK_TETRA, VTK_VERTEX
 
 from ...arrays import FloatArray, IntArray
-from ..arrays.vtu_arrays import CONTACT, GRAIN, TENSOR, VECTOR, Named, made
+from ..arrays.vtu_arrays import CONTACT, GRAIN, PAIR, TENSOR, VECTOR, Named, made
 from ..arrays.vtu_in_turn import GridInTurn, write_in_turn
 from ..arrays.vtu_reader import Arrays, Grid
+from .pairs import PressingPairs
 from .state import SolidSnapshot
 
 #: Components xx, yy, zz, yz, xz, xy in the order of a tensor's: XX, YY, ZZ, XY, YZ, XZ.
 _ORDER = [0, 1, 2, 5, 3, 4]
+#: Arrays of pairs besides their grains and positions.
+_PAIR_ARRAYS = [one.name for one in fields(PressingPairs)][2:]
 
 
 @dataclass(frozen=True)
 class SolidShape:
-    """Tetrahedra of grains, which share no node, and contacts between them.
+    """Tetrahedra of grains, which share no node, contacts between them, and pairs that press.
 
     Attributes:
         nodes: Places of the nodes of all grains (n, 3) [m].
@@ -36,7 +39,8 @@ class SolidShape:
         vertices: Places of the corners of contacts (k, 3) [m].
         corners: Vertices of contact after contact, counter-clockwise from outside its first grain.
         ends: First corner of each contact, and the end (c + 1,).
-        pairs: Both grains of each contact (c, 2).
+        grains_of_contacts: Both grains of each contact (c, 2).
+        pairs: Pairs that press without a common face, q.
     """
 
     nodes: FloatArray
@@ -45,7 +49,13 @@ class SolidShape:
     vertices: FloatArray
     corners: IntArray
     ends: IntArray
-    pairs: IntArray
+    grains_of_contacts: IntArray
+    pairs: PressingPairs = field(default_factory=PressingPairs.none)
+
+    @property
+    def cells(self) -> tuple[int, int, int]:
+        """Numbers of tetrahedra, contacts and pairs."""
+        return len(self.tetrahedra), len(self.grains_of_contacts), len(self.pairs)
 
 
 def write_solid_vtu(
@@ -70,7 +80,7 @@ def write_solid_vtu(
     def of_grains() -> Iterator[vtkDataArray]:
         if minerals is None:
             return
-        found = _blank(len(shape.grains) + len(shape.pairs), minerals)
+        found = _blank(sum(shape.cells), minerals)
         found[: len(shape.grains)] = minerals[shape.grains]
         yield made("mineral", (found, ()))
 
@@ -90,18 +100,21 @@ def write_solid_state(
         np.arange(len(snapshot.corners)),
         snapshot.corner_offsets,
         snapshot.contact_grains,
+        snapshot.pairs,
     )
-    grid = _grid_of(shape, _over_points(snapshot), _over_cells(snapshot))
+    grid = _grid_of(shape, _over_points(snapshot), _over_cells(snapshot, sum(shape.cells)))
     write_in_turn(path, grid, about or {})
 
 
 def _over_points(snapshot: SolidSnapshot) -> Iterator[vtkDataArray]:
-    nodes, points = len(snapshot.positions), len(snapshot.positions) + len(snapshot.corners)
+    nodes, ends = len(snapshot.positions), len(snapshot.positions) + len(snapshot.corners)
+    points = ends + len(snapshot.pairs)
 
     def displacement() -> FloatArray:
         found = np.empty((points, 3))
         np.subtract(snapshot.positions, snapshot.reference, out=found[:nodes])
-        np.subtract(snapshot.corners, snapshot.corner_reference, out=found[nodes:])
+        np.subtract(snapshot.corners, snapshot.corner_reference, out=found[nodes:ends])
+        found[ends:] = snapshot.centre_displacements[snapshot.pairs.grains].mean(axis=1)
         return found
 
     def velocity() -> FloatArray:
@@ -113,13 +126,15 @@ def _over_points(snapshot: SolidSnapshot) -> Iterator[vtkDataArray]:
     yield made("velocity", (velocity(), VECTOR))
 
 
-def _over_cells(snapshot: SolidSnapshot) -> Iterator[vtkDataArray]:
-    tetrahedra = len(snapshot.tetrahedra)
-    yield from _of_grains(snapshot)
-    for name, (values, components) in _of_contacts(snapshot).items():
-        found = _blank(tetrahedra + len(values), values)
-        found[tetrahedra:] = values
-        yield made(name, (found, components))
+def _over_cells(snapshot: SolidSnapshot, cells: int) -> Iterator[vtkDataArray]:
+    first = len(snapshot.tetrahedra)
+    yield from _of_grains(snapshot, cells)
+    for block in (_of_contacts(snapshot), _of_pairs(snapshot.pairs)):
+        for name, (values, components) in block.items():
+            found = _blank(cells, values, len(components))
+            found[first : first + len(values)] = values
+            yield made(name, (found, components))
+        first += len(snapshot.contact)
 
 
 def _blank(rows: int, values: FloatArray | IntArray, columns: int = 0) -> FloatArray | IntArray:
@@ -137,15 +152,17 @@ def state_of_grid(grid: Grid) -> SolidSnapshot:
         ValueError, LookupError: if it has no solid of flexpm.
     """
     cells, corners = grid.cells, grid.corners
-    count = int(np.count_nonzero(cells["kind"] == GRAIN))
-    bonds = {name: values[count:] for name, values in cells.items()}
+    count, pairs = (int(np.count_nonzero(cells["kind"] == kind)) for kind in (GRAIN, PAIR))
+    end = len(cells["kind"]) - pairs
+    bonds = {name: values[count:end] for name, values in cells.items()}
     tetrahedra = corners[: 4 * count].reshape(-1, 4)
     if not (count and len(tetrahedra) == count and np.all(np.isfinite(grid.places))):
         raise ValueError("cells")
     nodes = int(tetrahedra.max()) + 1
-    offsets = np.concatenate(([0], np.cumsum(np.diff(grid.ends[count - 1 :]))))
+    offsets = np.concatenate(([0], np.cumsum(np.diff(grid.ends[count - 1 : end]))))
     owner = cells["grain"][:count]
-    reference = grid.places - grid.points["displacement"]
+    ends = len(grid.places) - pairs
+    reference = grid.places[:ends] - grid.points["displacement"][:ends]
     each = bonds["points"]
     points = np.concatenate(([0], np.cumsum(each)))
     row = np.repeat(np.arange(len(each)), each)
@@ -171,7 +188,7 @@ def state_of_grid(grid: Grid) -> SolidSnapshot:
         contact_grains=np.column_stack([bonds["grain"], bonds["neighbour"]]),
         corner_offsets=offsets,
         corner_reference=reference[nodes:],
-        corners=grid.places[nodes:],
+        corners=grid.places[nodes:ends],
         areas=bonds["area"],
         point_offsets=points,
         point_area=bonds["area"][row] / each[row],
@@ -187,6 +204,15 @@ def state_of_grid(grid: Grid) -> SolidSnapshot:
         crack_position=blank,
         crack_energy=np.full(len(row), np.nan),
         grain_mineral=_minerals_of(cells, owner, len(volumes)),
+        pairs=_pairs_of(cells, end, grid.places[ends:]) if pairs else PressingPairs.none(),
+    )
+
+
+def _pairs_of(cells: Arrays, first: int, places: FloatArray) -> PressingPairs:
+    """Pairs of a grid from its cell `first` on, whose points are `places`."""
+    grains = np.column_stack([cells["grain"][first:], cells["neighbour"][first:]])
+    return PressingPairs(
+        grains, places, **{name: cells[f"pair_{name}"][first:] for name in _PAIR_ARRAYS}
     )
 
 
@@ -212,31 +238,36 @@ def _grid_of(
     shape: SolidShape, points: Iterator[vtkDataArray], cells: Iterator[vtkDataArray]
 ) -> GridInTurn:
     """Return the grid of a shape, with additional arrays."""
-    tetrahedra, contacts = len(shape.tetrahedra), len(shape.pairs)
-    counts = (len(shape.nodes) + len(shape.vertices), tetrahedra + contacts)
+    tetrahedra, _, pairs = shape.cells
+    first_pair = len(shape.nodes) + len(shape.vertices)
+    counts = (first_pair + pairs, sum(shape.cells))
+    both = np.concatenate((shape.grains_of_contacts, shape.pairs.grains))
 
     def every_cell() -> Iterator[vtkDataArray]:
-        kinds = np.array([GRAIN, CONTACT], dtype=np.int32)
-        yield made("kind", (np.repeat(kinds, (tetrahedra, contacts)), ()))
-        yield made("grain", (np.concatenate((shape.grains, shape.pairs[:, 0])), ()))
-        second = _blank(tetrahedra + contacts, shape.pairs)
-        second[tetrahedra:] = shape.pairs[:, 1]
+        kinds = np.array([GRAIN, CONTACT, PAIR], dtype=np.int32)
+        yield made("kind", (np.repeat(kinds, shape.cells), ()))
+        yield made("grain", (np.concatenate((shape.grains, both[:, 0])), ()))
+        second = _blank(sum(shape.cells), both)
+        second[tetrahedra:] = both[:, 1]
         yield made("neighbour", (second, ()))
         del second
         yield from cells
 
     def places() -> Iterator[vtkDataArray]:
-        yield _plain("Points", numpy_to_vtk(np.vstack((shape.nodes, shape.vertices))))
+        rows = (shape.nodes, shape.vertices, shape.pairs.position)
+        yield _plain("Points", numpy_to_vtk(np.vstack(rows)))
 
     def corners() -> Iterator[vtkDataArray]:
-        own = shape.corners + len(shape.nodes)
-        joint = np.concatenate((shape.tetrahedra.ravel(), own)).astype(np.int64, copy=False)
+        own = (shape.corners + len(shape.nodes), first_pair + np.arange(pairs))
+        joint = np.concatenate((shape.tetrahedra.ravel(), *own)).astype(np.int64, copy=False)
         yield _plain("connectivity", numpy_to_vtk(joint))
         first = 4 * np.arange(1, tetrahedra + 1)
-        ends = np.concatenate((first, 4 * tetrahedra + shape.ends[1:])).astype(np.int64, copy=False)
+        ends = np.concatenate((first, 4 * tetrahedra + shape.ends[1:]))
+        last = ends[-1] + np.arange(1, pairs + 1)
+        ends = np.concatenate((ends, last)).astype(np.int64, copy=False)
         yield _plain("offsets", numpy_to_vtk(ends))
-        types = np.array([VTK_TETRA, VTK_POLYGON], dtype=np.uint8)
-        yield _plain("types", numpy_to_vtk(np.repeat(types, (tetrahedra, contacts))))
+        types = np.array([VTK_TETRA, VTK_POLYGON, VTK_VERTEX], dtype=np.uint8)
+        yield _plain("types", numpy_to_vtk(np.repeat(types, shape.cells)))
 
     return GridInTurn(counts, points, every_cell(), places(), corners())
 
@@ -246,10 +277,9 @@ def _plain(name: str, array: vtkDataArray) -> vtkDataArray:
     return array
 
 
-def _of_grains(snapshot: SolidSnapshot) -> Iterator[vtkDataArray]:
+def _of_grains(snapshot: SolidSnapshot, rows: int) -> Iterator[vtkDataArray]:
     """Yield arrays of tetrahedra one by one, because all stresses are a tenth of a state."""
     grain, mineral = snapshot.tetrahedron_grain, snapshot.grain_mineral
-    rows = len(grain) + len(snapshot.contact_grains)
 
     def scalar(name: str, values: FloatArray | IntArray) -> vtkDataArray:
         found = _blank(rows, values)
@@ -309,3 +339,13 @@ def _of_contacts(snapshot: SolidSnapshot) -> dict[str, Named]:
         "crack_mode": mode,
     }
     return {name: (values, ()) for name, values in arrays.items()}
+
+
+def _of_pairs(pairs: PressingPairs) -> dict[str, Named]:
+    """Arrays of pairs, of files that have any: other states keep their files."""
+    if not len(pairs):
+        return {}
+    components = {"force": VECTOR}
+    return {
+        f"pair_{name}": (getattr(pairs, name), components.get(name, ())) for name in _PAIR_ARRAYS
+    }
