@@ -10,8 +10,8 @@ from flexpm.cli.main import command
 from flexpm.dimensions import FEATURES, SOLIDS
 from flexpm.kinds.registry import KINDS
 from flexpm.runs.input_names import OF_THE_PLANE
+from flexpm.specimens.one_dimension import PlaneOnly, SolidOnly
 from flexpm.specimens.space.any_spec import SIZES
-from flexpm.specimens.space.plane_only import PlaneOnly
 from flexpm.specimens.space.spec import SIZES as SOLID_SIZES
 
 ASKED = [asked for feature in FEATURES.values() for asked in feature.asked]
@@ -40,6 +40,14 @@ def test_a_solid_refuses_the_calls_of_features_in_2d(name):
     told = f"Specimen.{name}: specimen = box, must be 2D: {feature.refusal}"
     with pytest.raises(flexpm.InputError, match=f"^{re.escape(told)}$"):
         getattr(solid, name)()
+
+
+@pytest.mark.parametrize("name", [n for n, one in vars(SolidOnly).items() if callable(one)])
+def test_a_plane_specimen_refuses_the_calls_of_features_in_3d(name):
+    (feature,) = (one for one in FEATURES.values() if name in " ".join(one.asked))
+    told = f"Specimen.{name}: specimen = disc, must be 3D: {feature.refusal}"
+    with pytest.raises(flexpm.InputError, match=f"^{re.escape(told)}$"):
+        getattr(flexpm.Specimen.disc(0.01, thickness=0.01, seed=1), name)([0])
 
 
 def test_a_disc_refuses_the_jaws_of_a_named_test_as_the_table_says():

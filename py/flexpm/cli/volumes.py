@@ -282,8 +282,9 @@ def _notes(made: SolidSpecimen, report: VolumeReport) -> list[str]:
             lines.append(f"{what}: {number}")
     if (divided := totals["divided_share"]) > _DIVIDED:
         lines.append(
-            f"{100 * divided:.0f} % of the area of all boundaries divide regions of a label, and "
-            "cracks may follow them"
+            f"{100 * divided:.0f} % of the area of all boundaries divides regions of one label, "
+            f"more than {100 * _DIVIDED:.0f} %: cracks may follow these boundaries; use labels "
+            "of grains in place of --watershed"
         )
     soft = softness(made)
     if soft > SOFT:

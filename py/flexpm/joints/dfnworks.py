@@ -77,7 +77,7 @@ def _corner(where: str, text: str, middle: Vector) -> Vector:
         x = y = z = math.nan
     if not all(abs(value) <= FARTHEST for value in (x, y, z)):
         raise InputError(
-            f"{where}: corner = {quoted(text)}, must be three numbers of at most {FARTHEST:g}; "
+            f"{where}: corner = {quoted(text)}, must be three numbers of at most {FARTHEST:g} m; "
             "correct the line"
         )
     return x + middle[0], y + middle[1], z + middle[2]

@@ -368,7 +368,7 @@ def build(
     if isinstance(specimen, SolidSpecimen):
         chosen = load_material(material, model, solid=True)
         built = _build_solid(
-            *(specimen, chosen, model, damping), dynamic=dynamic, gravity=gravity, bonded=bonded
+            specimen, chosen, model, damping, dynamic=dynamic, gravity=gravity, bonded=bonded
         )
         built.set_threads(threads)
         return built

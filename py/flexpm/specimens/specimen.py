@@ -30,6 +30,7 @@ from .checks import SHORT_EDGE as SHORT_EDGE
 from .files import specimen_file
 from .joint_cutting import Excavatable, cut_cells
 from .kernel_input import Circle, call, checksum, columns, mineral_indices
+from .one_dimension import SolidOnly
 from .plane import Filling
 from .shapes import PlaneShapes
 from .space.makers import SolidShapes
@@ -42,7 +43,7 @@ _STRAIGHT = 1e-9
 
 @with_old_names
 @dataclass(frozen=True, eq=False)
-class Specimen(PlaneShapes, SolidShapes, Excavatable, Shown):
+class Specimen(PlaneShapes, SolidShapes, SolidOnly, Excavatable, Shown):
     """Bonded grains that fill a 2D outline.
 
     Make a specimen with ``rectangle``, ``disc``, ``half_disc``, ``polygon``, ``from_discs``,

@@ -38,9 +38,9 @@ _CHANGES = tuple(f"set.{name}" for name in UNITS)
 #: Keys that name files: a saved specimen, lines of joints, and a fracture network.
 _FILES = ("specimen", "joints", "network")
 #: Keys of how a file of joints is read, by the options of the command.
-_OF_MAPS = {"joint_name": "name", "joint_origin": "origin", "joint": "joint"}
+_OF_JOINT_FILES = {"joint_name": "name", "joint_origin": "origin", "joint": "joint"}
 #: Keys that say how a specimen is cut, which no run asks for: it has the specimen.
-_CUTS = (*_FILES, *_OF_MAPS, "network_seed")
+_CUTS = (*_FILES, *_OF_JOINT_FILES, "network_seed")
 #: Keys of what a run writes beside its results; they are no inputs of it.
 _OUTPUTS = ("frames", "film")
 #: Keys of a packing.
@@ -224,7 +224,7 @@ def _specimen(test: str, used: Table) -> AnySpec:
                 )
     packed = None if "specimen" in used else RunSpec.packed(test, used)
     file, joints, network = (Path(used[key]) if key in used else None for key in _FILES)
-    seed, of_map = used.get("network_seed"), {key: used.get(key) for key in _OF_MAPS}
+    seed, of_map = used.get("network_seed"), {key: used.get(key) for key in _OF_JOINT_FILES}
     return SpecimenSource.read(packed, file, joints, network, seed, **of_map).spec
 
 
@@ -346,7 +346,7 @@ def arguments(test: str, used: Table) -> Iterator[str]:
         if key.startswith("set."):
             yield from ("--set", f"{key.removeprefix('set.')}={text_of(value)}")
         elif not isinstance(value, bool):
-            yield from (f"--{_OF_MAPS.get(key, key).replace('_', '-')}", text_of(value))
+            yield from (f"--{_OF_JOINT_FILES.get(key, key).replace('_', '-')}", text_of(value))
         elif value:
             yield f"--{key.replace('_', '-')}"
     yield "--quiet"

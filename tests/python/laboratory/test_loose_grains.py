@@ -8,6 +8,8 @@ import math
 import numpy as np
 import pytest
 import yade
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
 from refusals import refusal
 
 import flexpm
@@ -24,8 +26,8 @@ LOOSE = {
 }
 
 
-def rock(model: str, solid: bool = True) -> flexpm.Material:
-    return flexpm.materials.load(None, model, solid=solid).with_set(LOOSE, model)
+def rock(model: str) -> flexpm.Material:
+    return flexpm.materials.load(None, model, solid=True).with_set(LOOSE, model)
 
 
 def hold(built: flexpm.Model, where) -> None:
@@ -79,6 +81,138 @@ def test_a_block_slides_on_a_3d_joint_as_coulomb_says_or_not_at_all(model, beyon
         assert slid - speed * time == pytest.approx(0.5 * gain * time**2, rel=0.05)
 
 
+MIDDLE = np.array([0.03, 0.03, 0.03])
+
+
+def slope_and_block(dip: float, sides: tuple[float, float, float]) -> flexpm.SolidSpecimen:
+    """A cuboid on a slope: grain 0 of the cells of seven spheres, and the grain below it.
+
+    Args:
+        dip: Of the slope, towards x [degree].
+        sides: Of the cuboid down the slope, across, and normal to the slope [m].
+    """
+    down, across, up = axes = axes_of(dip)
+    ways = [0.0 * up, -sides[2] * up]
+    ways += [sign * side * axis for side, axis in zip(sides, axes, strict=True) for sign in (1, -1)]
+    rows = [(*(MIDDLE + way), 1e-3) for way in ways[:-1]]
+    # edges of the cuboid are short beside the mean diameter of all seven
+    sizes = dict.fromkeys(("width", "depth", "height"), 0.06)
+    whole = flexpm.Specimen.from_spheres(rows, **sizes, short_edge=0.0)
+    left = whole.without_grains(range(2, len(rows)))
+    assert left.cells.volumes[0] == pytest.approx(math.prod(sides), rel=1e-9)
+    return left
+
+
+def axes_of(dip: float) -> np.ndarray:
+    """Unit vectors down a slope, across and normal to it."""
+    angle = math.radians(dip)
+    return np.array(
+        [
+            [math.cos(angle), 0.0, -math.sin(angle)],
+            [0.0, 1.0, 0.0],
+            [math.sin(angle), 0.0, math.cos(angle)],
+        ]
+    )
+
+
+def motions_on_slope(
+    dip: float, sides: tuple[float, float, float], friction: float, steps: int, damping: float = 0.3
+) -> list[tuple[float, float, int]]:
+    """Way down the slope [m], rotation about the axis across [rad], pairs that press: twice.
+
+    The damping is that after the first half, which has 0.3.
+    """
+    yade.O.reset()
+    down, across, up = axes_of(dip)
+    material = rock("flexible").with_set({"normal_stiffness": 1e13, "friction": friction})
+    options = {"dynamic": True, "gravity": GRAVITY, "damping": 0.3, "bonded": False}
+    built = flexpm.build(slope_and_block(dip, sides), material, **options)
+    low = float(MIDDLE @ up - 0.5 * sides[2]) - 1e-6
+    hold(built, lambda x, y, z: x * up[0] + y * up[1] + z * up[2] < low)
+    found = []
+    for _ in range(2):
+        built.run(steps)
+        state = built.snapshot()
+        nodes = slice(0, state.node_offsets[1])
+        before, now = state.reference[nodes], state.positions[nodes]
+        way = (now - before).mean(axis=0)
+        arms, now = before - before.mean(axis=0), now - now.mean(axis=0)
+        about = np.cross(across, arms)
+        turn = math.atan2(np.sum(about * now), np.sum(np.cross(about, across) * now))
+        found.append((float(way @ down), turn, len(state.pairs)))
+        built.damping = damping
+    return found
+
+
+@given(
+    friction=st.floats(0.2, 1.2),
+    shape=st.floats(0.3, 1.2),
+    height=st.floats(0.006, 0.014),
+    margin=st.sampled_from([-1.0, 1.0, 4.0]),
+)
+@settings(max_examples=12, deadline=None, derandomize=True)
+@example(friction=0.4, shape=0.7, height=0.015, margin=1.0)
+@example(friction=1.5, shape=0.7, height=0.015, margin=1.0)
+def test_blocks_on_slopes_rest_slide_or_topple_within_a_degree(friction, shape, height, margin):
+    """Slides from the friction angle on, topples where its centre is beyond its edge."""
+    slides, topples = (math.degrees(math.atan(one)) for one in (friction, shape))
+    assume(abs(slides - topples) > 2.0 + margin)
+    dip = min(slides, topples) + margin
+    sides = (shape * height, 0.008, height)
+    (before, turned, _), (way, turn, _) = motions_on_slope(
+        dip, sides, friction, 7000, damping=0.3 if margin < 0.0 else 0.0
+    )
+    if margin < 0.0:  # an edge under load gives way a little, and then rests
+        assert abs(way - before) < 1e-7
+        assert abs(turn - turned) < 1e-4
+    elif slides < topples:
+        assert way > 1e-5
+        assert way > 2.0 * before
+        assert abs(turn) < 0.02  # it chatters without damping
+    else:
+        assert turn > 2e-5
+        assert turn > 2.0 * turned
+
+
+def test_a_block_that_topples_turns_about_its_edge_as_a_pair():
+    way, turn, pairs = motions_on_slope(45.0, (0.006, 0.008, 0.012), 1.2, 4000)[1]
+    assert turn > 0.1
+    assert pairs == 1
+    # the centre moves on an arc about the lower edge, which is 3 mm down the slope from it
+    start = math.atan2(0.006, -0.003)
+    arc = np.hypot(0.003, 0.006) * (math.cos(start - turn) - math.cos(start))
+    assert way == pytest.approx(arc, rel=0.02)
+
+
+@pytest.mark.parametrize(("model", "tolerance"), [("rigid", 1e-9), ("flexible", 1e-5)])
+def test_three_blocks_that_have_fallen_weigh_on_what_bears_them(model, tolerance):
+    """Cubes on cubes after a fall of 4 mm: rho g h at each face, that of the pair among them."""
+    yade.O.reset()
+    side, gap = 0.01, 0.004
+    ends = np.cumsum([0.0, side, gap, side, side, side])
+    middles = 0.5 * (ends[1:] + ends[:-1])
+    powers = [2.5e-5]
+    for distance, end, middle in zip(np.diff(middles), ends[1:], middles, strict=False):
+        powers.append(powers[-1] - 2.0 * distance * (end - middle - 0.5 * distance))
+    radii = np.sqrt(np.array(powers) - min(powers) + 1e-8)
+    rows = [(0.5 * side, 0.5 * side, *one) for one in zip(middles, radii, strict=True)]
+    whole = flexpm.Specimen.from_spheres(rows, width=side, depth=side, height=float(ends[-1]))
+    blocks = whole.without_grains([1])
+    options = {"dynamic": True, "gravity": GRAVITY, "damping": 0.7, "bonded": False}
+    built = flexpm.build(blocks, rock(model), model, **options)
+    hold(built, lambda x, y, z: z < side + 1e-9)
+    built.run(16000)
+    state = built.snapshot()
+    weight = yade.O.bodies[built.solver.bodyIds[1]].state.mass * GRAVITY
+    assert state.pairs.grains.tolist() == [[0, 1]]
+    assert state.pairs.force[0, 2] == pytest.approx(3.0 * weight, rel=tolerance)
+    forces = state.point_traction[:, 0] * state.point_area
+    between = np.bincount(state.point_contact, forces) / weight
+    assert between == pytest.approx([-2.0, -1.0], rel=tolerance)
+    # the deepest place is half of the overlap away from both faces
+    assert 2.0 * state.pairs.depth[0] * 1e10 * side**2 == pytest.approx(3.0 * weight, rel=2e-3)
+
+
 @pytest.fixture(scope="module")
 def column() -> flexpm.SolidSpecimen:
     """Grains on a floor that is wider than they are."""
@@ -110,7 +244,7 @@ def test_a_column_without_bonds_collapses_and_keeps_its_energy(column):
 
 @pytest.mark.parametrize("solid", [False, True], ids=["plane", "space"])
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
-def test_contacts_without_bonds_press_and_do_not_pull(solid, model, column):
+def test_contacts_without_bonds_press_and_do_not_pull(solid, model):
     """Two halves of a specimen that are pulled apart, and pushed on each other."""
     specimen = (
         flexpm.Specimen.box(0.008, 0.008, 0.012)
@@ -165,7 +299,8 @@ def test_what_cannot_be_done_is_refused(column):
     refusal("grain = 44, must be 0 to 43", whole.without_grains, [44])
     refusal("flags = 3, must be 44", whole.without_grains, [True, False, True])
     refusal("grains left = 1, must be >= 2", whole.without_grains, range(43))
-    for given in (cut, column):
-        refusal("cells = cut or given", given.without_grains, [0])
+    for one in (cut, column):
+        refusal("cells = cut or given", one.without_grains, [0])
+    refusal("grains = [0.7], must be integers or bools", whole.without_grains, [0.7])
     words = "bonded = False, must be True for model jcfpm"
     refusal(words, flexpm.build, whole, None, "jcfpm", bonded=False)

@@ -257,10 +257,9 @@ void fade(PairContact& pair, double slid, double before, const LawParameters& la
     pair.friction_energy += less;
 }
 
-/// Update a pair, which may be a copy of that of the state, and its loads in the plan.
-void update_pair(SolidState& s, int number, PairContact& pair, double dt, Room& room)
+/// Update a pair and its loads, which may be copies of those of the state and of the plan.
+void update_pair(const SolidState& s, PairContact& pair, PairWork& work, double dt, Room& room)
 {
-    PairWork& work = s.plan.pairs.pairs[number];
     const GrainBody &a = s.plan.pairs.bodies[work.bodies[0]],
                     &b = s.plan.pairs.bodies[work.bodies[1]];
     const LawParameters& law = s.contacts.laws[pair.law];
@@ -317,6 +316,16 @@ void update_pair(SolidState& s, int number, PairContact& pair, double dt, Room& 
         fade(pair, rubs.slid, overlap.energy, law, of_a, of_b, room);
 }
 
+void add_node_loads(const PairLoad& load, double* forces)
+{
+    for (std::size_t k = 0; k < load.nodes.size(); ++k) {
+        double* force = forces + load.nodes[k];
+        force[0] += load.forces[k].x;
+        force[1] += load.forces[k].y;
+        force[2] += load.forces[k].z;
+    }
+}
+
 }  // namespace
 
 void follow_bodies(SolidState& s, int thread, int threads)
@@ -332,7 +341,7 @@ void update_pairs(SolidState& s, double dt, int thread, int threads)
     thread_local Room room;
     const auto count = static_cast<int>(s.pairs.size());
     for (int i = thread * count / threads; i < (thread + 1) * count / threads; ++i)
-        update_pair(s, i, s.pairs[i], dt, room);
+        update_pair(s, s.pairs[i], s.plan.pairs.pairs[i], dt, room);
 }
 
 void update_pairs(SolidState& s, double dt)
@@ -341,21 +350,16 @@ void update_pairs(SolidState& s, double dt)
     update_pairs(s, dt, 0, 1);
 }
 
-void add_loads_of_pairs(SolidState& s, double* forces)
+void add_loads_of_pairs(const SolidState& s, double* forces)
 {
     Room room;
     for (std::size_t i = 0; i < s.pairs.size(); ++i) {
         PairContact pair = s.pairs[i];
+        PairWork work = s.plan.pairs.pairs[i];
         if (!pair.presses()) continue;
-        update_pair(s, static_cast<int>(i), pair, 0.0, room);
-        for (const PairLoad& load : s.plan.pairs.pairs[i].loads) {
-            for (std::size_t k = 0; k < load.nodes.size(); ++k) {
-                double* force = forces + load.nodes[k];
-                force[0] += load.forces[k].x;
-                force[1] += load.forces[k].y;
-                force[2] += load.forces[k].z;
-            }
-        }
+        update_pair(s, pair, work, 0.0, room);
+        for (const PairLoad& load : work.loads)
+            add_node_loads(load, forces);
     }
 }
 
@@ -365,13 +369,10 @@ void add_pair_forces(SolidState& s, int block)
     if (plan.first_use.empty()) return;
     for (int i = plan.first_use[block]; i < plan.first_use[block + 1]; ++i) {
         const PairLoad& load = plan.pairs[plan.uses[i].pair].loads[plan.uses[i].side];
-        for (std::size_t k = 0; k < load.nodes.size() && !s.is_rigid(); ++k) {
-            double* force = s.grains.force.data() + load.nodes[k];
-            force[0] += load.forces[k].x;
-            force[1] += load.forces[k].y;
-            force[2] += load.forces[k].z;
+        if (!s.is_rigid()) {
+            add_node_loads(load, s.grains.force.data());
+            continue;
         }
-        if (!s.is_rigid()) continue;
         double* wrench = s.plan.wrenches.data() + block * WrenchRow::count;
         const Vector of[] = { load.force, load.moment };
         for (int row : { 0, 1 }) {

@@ -20,8 +20,8 @@ void update_pairs(SolidState& s, double dt, int thread, int threads);
 void update_pairs(SolidState& s, double dt);
 
 /// Add the forces of pairs on the nodes of both grains to forces on all nodes [N]. They are derived
-/// from the saved state, so that a loaded one has the same bits; pairs stay as they are.
-void add_loads_of_pairs(SolidState& s, double* forces);
+/// from the saved state, so that a loaded one has the same bits; nothing that a step reads changes.
+void add_loads_of_pairs(const SolidState& s, double* forces);
 
 /// Add the loads of pairs to the nodes of a block of grains, or to the wrench of a rigid grain, in the
 /// order of pairs.

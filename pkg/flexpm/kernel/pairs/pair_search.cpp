@@ -311,6 +311,25 @@ void take_over(SolidState& s, int contact, const FaceLoad& load)
     if (stored > load.shear_energy) pair->slip = std::sqrt(load.shear_energy / stored) * pair->slip;
 }
 
+/// Bound of the speed of all vertices of a grain.
+double largest_speed(const SolidState& s, int grain)
+{
+    const Grains& grains = s.grains;
+    const Vector at_centre = space_vector(grains.velocity, grains.centre(grain));
+    const double spin = s.is_rigid() ? norm(s.bodies[grain].spin) : 0.0;
+    if (s.is_rigid() && spin == 0.0) return norm(at_centre);
+    const Vector centre = space_vector(grains.reference, grains.centre(grain));
+    double largest = 0.0;
+    for (int n = 0; n < grains.vertices_of(grain); ++n) {
+        const int node = grains.node(grain, n);
+        const Vector of = s.is_rigid() ? space_vector(grains.reference, node) - centre
+                                       : space_vector(grains.velocity, node);
+        largest = std::max(largest, dot(of, of));
+    }
+    largest = std::sqrt(largest);
+    return s.is_rigid() ? norm(at_centre) + spin * largest : largest;
+}
+
 }  // namespace
 
 bool has_parted(const SolidState& s, int contact)
@@ -361,12 +380,8 @@ bool has_to_search(SolidState& s, double dt)
 {
     if (s.unsearched_way < 0.0) return false;
     double largest = 0.0;
-    for (int g = 0; g < s.grains.count; ++g) {
-        const Vector velocity = space_vector(s.grains.velocity, s.grains.centre(g));
-        double speed = norm(velocity);
-        if (s.is_rigid()) speed += s.grains.radius[g] * norm(s.bodies[g].spin);
-        largest = std::max(largest, speed);
-    }
+    for (int g = 0; g < s.grains.count; ++g)
+        largest = std::max(largest, largest_speed(s, g));
     s.unsearched_way += dt * largest;
     return s.unsearched_way > box_margin(s);
 }

@@ -18,7 +18,9 @@ namespace flexpm {
 bool has_parted(const SolidState& s, int contact);
 
 /// End the contacts whose faces have parted, search near pairs, and let clearances fall with the
-/// overlap of pairs that do not press. To be called between steps: after some number of them, and where has_to_search() says so.
+/// overlap of pairs that do not press. To be called between steps: after some number of them, and
+/// where has_to_search() says so. A saved state goes on to the same bits if it was saved with the
+/// number of its steps.
 ///
 /// @return  whether there are pairs
 bool look_for_pairs(SolidState& s);

@@ -150,7 +150,7 @@ void require_short_edge(double short_edge)
 {
     if (std::isfinite(short_edge) && short_edge >= 0.0) return;
     refuse("polyhedra: short_edge", short_edge, "m",
-        "must be finite and >= 0; use 0 to keep every edge");
+        "must be finite and >= 0; use 0 to collapse none");
 }
 
 void finish_cells(

@@ -70,7 +70,7 @@ private:
     double threshold;
     double limit = 0.0;                      ///< of the edges that are collapsed now
     bool flattens = false;                   ///< whether corners move into planes: none may turn
-    bool any = false;                        ///< whether an edge has been collapsed in this round
+    bool any = false;                        ///< whether anything has changed in this round
     std::vector<std::vector<int>> faces_at;  ///< faces that meet in a vertex, in order
     std::vector<int> faces_of;               ///< number of faces of each cell
     std::set<std::tuple<double, int, int>> queue;  ///< (length, smaller vertex, larger vertex)
@@ -200,9 +200,10 @@ private:
         const double allowed = worst();
         for (std::size_t k = 0; k < group.size(); ++k)
             complex.vertices[group[k]] = targets[k];
-        any = worst() <= std::min(allowed, 1.0);
+        const bool moved = worst() <= std::min(allowed, 1.0);
+        any = any || moved;
         for (std::size_t k = 0; k < group.size(); ++k) {
-            if (any)
+            if (moved)
                 complex.walls[group[k]] = walls[k];
             else
                 complex.vertices[group[k]] = before[k];

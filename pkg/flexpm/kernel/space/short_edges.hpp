@@ -17,8 +17,9 @@ namespace flexpm {
 /// tetrahedron (see face_triangles()) would be below 2 degrees and smaller than before. Triangles
 /// that still have a short edge must only keep a volume: they go in their turn.
 ///
-/// Corners of joints that are off their planes are moved into them first, by collapses of edges of
-/// any length or alone, under the same rules. Corners that cannot move stay.
+/// Corners of joints that are off their planes are moved into them, by collapses of edges of any
+/// length, alone or together with others of their joint, under the same rules. Corners that cannot
+/// move stay.
 ///
 /// @param centres  per cell, the common corner of its tetrahedra
 /// @return         number of short edges that stay

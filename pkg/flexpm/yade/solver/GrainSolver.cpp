@@ -80,7 +80,10 @@ void GrainSolver::takeSolidStep()
 {
 	try {
 		const bool due = stepsDone() % checkPeriod == 0;
-		if (flexpm::has_to_search(space, scene->dt) || due) flexpm::look_for_pairs(space);
+		if (flexpm::has_to_search(space, scene->dt) || due) {
+			const std::lock_guard<std::mutex> lock(looking);
+			flexpm::look_for_pairs(space);
+		}
 		if (due) flexpm::find_loose(space);
 		auto options        = stepOptions();
 		options.leave_nodes = true;

@@ -21,12 +21,12 @@ from ...joints import dfnworks, plane_files
 from ...joints.planes import JointPlane, PlanesCut, checked, names_of, require_few, require_size
 from ...progress import Progress
 from ...renamed import with_old_names
-from ...require import require_flag
+from ...require import quoted, require_flag
 from ..kernel_input import call, checksum, checksums_of_starts, mineral_indices
+from ..one_dimension import PlaneOnly
 from . import cells as of_spheres
 from . import cuts, file
 from .own_cells import KINDS, OwnCells
-from .plane_only import PlaneOnly
 from .spec import SHORT_EDGE, SIZES, SolidSpec
 
 if TYPE_CHECKING:
@@ -390,7 +390,7 @@ class SolidSpecimen(PlaneOnly):
         Remove grains before joints cut the specimen.
 
         Args:
-            grains: Numbers of the grains, or for each grain whether it is removed, (n,) bools.
+            grains: Indices of the grains, or for each grain whether it is removed, (n,) bools.
 
         Returns:
             The other grains, in their order.
@@ -407,11 +407,21 @@ class SolidSpecimen(PlaneOnly):
         count = len(self.spheres)
         given = np.asarray(grains)
         if given.dtype == bool and given.shape != (count,):
-            raise InputError(f"without_grains: flags = {given.size}, must be {count}, one a grain")
+            raise InputError(
+                f"without_grains: flags = {given.size}, must be {count}; give one for each grain"
+            )
+        if given.size and given.dtype.kind not in "biu":
+            raise InputError(
+                f"without_grains: grains = {quoted(grains)}, must be integers or bools; give "
+                "indices of grains, or one bool for each grain"
+            )
         numbers = np.flatnonzero(given) if given.dtype == bool else given.astype(int).ravel()
         if len(numbers) and not 0 <= numbers.min() <= numbers.max() < count:
             wrong = numbers[(numbers < 0) | (numbers >= count)][0]
-            raise InputError(f"without_grains: grain = {wrong}, must be 0 to {count - 1}")
+            raise InputError(
+                f"without_grains: grain = {wrong}, must be 0 to {count - 1}; give indices of this "
+                "specimen's grains"
+            )
         if self.planes or self.given is not None or self.kind not in KINDS:
             raise InputError(
                 "without_grains: cells = cut or given, must be Laguerre cells of a box, cylinder "

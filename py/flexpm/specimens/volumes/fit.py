@@ -84,8 +84,8 @@ def fit(grid: Grid, progress: Progress | None = None, *, exact: bool = False) ->
     """Fit a power cell to each region of a grid.
 
     The start has the centroids and the radii of the regions. Three stages of a softer to a sharper
-    fit follow. Then rounds follow in which regions that lost voxels against the start, or all of
-    them, have a larger and larger weight. Levels are raised until no region has fewer voxels in
+    fit follow. Then rounds follow in which regions that have fewer voxels than at the start, or
+    none, get a larger and larger weight. Levels are raised until no region has fewer voxels in
     its cell than at the start. The result with most voxels in the cells of their regions is taken,
     the start included, or one with nearly as many in which fewer regions have no voxel.
 
