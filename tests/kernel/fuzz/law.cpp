@@ -31,6 +31,10 @@ ContactMaterial draw_material(Bytes& bytes)
         m.dilation = bytes.wild(0.1);
         m.dilation_slip = bytes.wild(1e-5);
     }
+    if (bytes.flag()) {
+        m.residual_friction = bytes.wild(0.2);
+        m.slip_length = bytes.wild(1e-4);
+    }
     if (!bytes.flag()) return m;
     m.tensile_fracture_energy = 0.5 * m.tensile_strength * m.tensile_strength / m.normal_stiffness;
     m.shear_fracture_energy = 0.5 * m.cohesion * m.cohesion / (m.shear_ratio * m.normal_stiffness);

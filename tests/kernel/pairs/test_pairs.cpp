@@ -184,6 +184,84 @@ TEST_CASE("A cracked face that slides away hands over to a pair without a jump",
     }
 }
 
+TEST_CASE("The friction of a face falls with its slip, which goes over to its pair", "[pairs]")
+{
+    auto contact = specimens::granite_contact();
+    contact.residual_friction = 0.4 * contact.friction;
+    contact.slip_length = 0.04 * side;  // a face hands over after half of it
+    const double fall = (contact.friction - contact.residual_friction) / contact.slip_length;
+    for (const bool rigid : { false, true }) {
+        SolidInput input = granite(FacePointRule::corners_and_inner, rigid);
+        input.contacts = { contact };
+        SolidState s =
+            make_solid(solid_samples::brick(1, 1, 2), Solid::box(side, side, 2.0 * side), input);
+        scale_masses(s, 0.0);
+        const double pressure = 100e6, depth = pressure / contact.normal_stiffness;
+        move_by(s, { 1 }, { 0.0, 0.0, 1e-5 }, 20);  // cracks
+        move_by(s, { 1 }, { 0.0, 0.0, -1e-5 - depth }, 200);
+        // of the way it slides, friction holds an elastic part, mu times this
+        const double elastic = pressure / (contact.shear_ratio * contact.normal_stiffness);
+        const auto friction_at = [&](double way) {
+            const double mu = (contact.friction - fall * way) / (1.0 - fall * elastic);
+            return std::max(mu, contact.residual_friction);
+        };
+        const double part = 2e-5 * side;
+        double last = contact.friction, jump = 0.0;
+        int of_face = 0, of_pair = 0, residual = 0;
+        const auto slide = [&](double sense, int from, int to, double lost) {
+            for (int k = from + 1; k <= to; ++k) {
+                move_by(s, { 1 }, { sense * part, 0.0, 0.0 }, 1);
+                if ((k - from) * part < 2.0 * contact.friction * elastic) continue;  // may stick
+                const Vector force = force_on(s, { 1 });
+                const double mu = -sense * force.x / force.z;
+                REQUIRE(mu == Approx(friction_at(k * part - lost)).epsilon(1e-3));
+                jump = std::max(jump, std::fabs(mu - last));
+                last = mu;
+                (s.contacts.has_ended(0) ? of_pair : of_face) += 1;
+                residual += mu < 1.001 * contact.residual_friction;
+            }
+        };
+        slide(1.0, 0, 250, 0.0);
+        const double turned = last;
+        // plastic slips of either sense add up
+        slide(-1.0, 250, 500, 2.0 * turned * elastic);
+        const double back = last;
+        slide(1.0, 500, 3500, 2.0 * (turned + back) * elastic);
+        CAPTURE(rigid, of_face, of_pair, residual, jump);
+        CHECK(of_face > 500);
+        CHECK(of_pair > 500);
+        CHECK(residual > 500);
+        CHECK(jump < 2.0 * fall * 2.0 * contact.friction * elastic);
+        // each begin and end of a motion books its work half a step late
+        CHECK(std::fabs(balance::miss(energies(s))) < 1.5e-3 * energies(s).friction);
+    }
+}
+
+TEST_CASE("Grains that meet anew have the residual friction at once", "[pairs]")
+{
+    auto contact = specimens::granite_contact();
+    contact.residual_friction = 0.4 * contact.friction;
+    contact.slip_length = side;
+    for (const bool rigid : { false, true }) {
+        SolidInput input = granite(FacePointRule::corners_and_inner, rigid);
+        input.contacts = { contact };
+        SolidState s = make_solid(
+            solid_samples::brick(2, 1, 2), Solid::box(2.0 * side, side, 2.0 * side), input);
+        scale_masses(s, 0.0);
+        // grain 3 goes up, above grain 0, and down
+        move_by(s, { 3 }, { 0.5 * side, 0.0, 0.0 }, 50);
+        move_by(s, { 3 }, { 0.0, 0.0, side }, 50);
+        move_by(s, { 2 }, { 0.0, side, 0.0 }, 50);
+        move_by(s, { 3 }, { -1.5 * side, 0.0, 0.0 }, 100);
+        const double depth = 1e-3 * side;
+        move_by(s, { 3 }, { 0.0, 0.0, -side - depth }, 400);
+        move_by(s, { 3 }, { 0.01 * side, 0.0, 0.0 }, 100);
+        const Vector force = force_on(s, { 3 });
+        CHECK(force.z > 0.0);
+        CHECK(-force.x / force.z == Approx(contact.residual_friction).epsilon(5e-3));
+    }
+}
+
 TEST_CASE("A block slides over a row of grains without a catch at their seams", "[pairs]")
 {
     const auto contact = specimens::granite_contact();

@@ -206,3 +206,57 @@ TEST_CASE("Sliding under pressure: peak, sign, shear cracks, then friction alone
         CHECK(flexpm::damage_of(a.contacts, 0, p) == 1.0);
     }
 }
+
+TEST_CASE("Under a constant pressure the friction of a crack falls with its plastic slip, in either "
+          "sense")
+{
+    const bool rigid = GENERATE(false, true);
+    auto m = specimens::granite_contact();
+    m.residual_friction = 0.4 * m.friction;
+    m.slip_length = 5e-5;
+    const double pressure = 40e6, area = size * specimens::thickness;
+    const double k = law_path::shear_stiffness(m), step = 2e-8;
+    const double fall = (m.friction - m.residual_friction) / m.slip_length;
+    // traction tau = mu(s) pressure where s is `slid` for tau = 0, and less by tau / k
+    const auto sliding = [&](double slid) {
+        const double tau = pressure * (m.friction - fall * slid) / (1.0 - fall * pressure / k);
+        return std::max(tau, m.residual_friction * pressure);
+    };
+    auto o = specimens::options(m);
+    o.rigid = rigid;
+    Assembly a = specimens::assemble(specimens::grid(2, 1, size), o);
+    hold_all(a);
+    std::fill(a.grains.spin_prescribed.begin(), a.grains.spin_prescribed.end(), 1);
+    const double distance = size - pressure / m.normal_stiffness;
+    const auto shear_at = [&](int number) {  // after a slip of so many steps, as above
+        const double angle = 2.0 * number * std::asin(0.5 * step / distance);
+        const Point moved = { distance * std::cos(angle) - size, distance * std::sin(angle) };
+        const Point now = vector_at(a.grains.displacement, a.grains.centre(1));
+        set_velocity(a, 1, Point { moved.x - now.x, moved.y - now.y });
+        run(a, 1);
+        const Point f = resultant(a, 0), n = a.contacts.normal(0);
+        return (f.y * n.x - f.x * n.y) / area;
+    };
+    double peak = 0.0, tau = 0.0;
+    const double cracked = law_path::critical_slip(m), farthest = cracked + 0.5 * m.slip_length;
+    int number = 0;
+    for (; number * step < farthest; ++number) {
+        tau = shear_at(number);
+        peak = std::max(peak, tau);
+        const double slid = number * step - cracked;
+        if (slid > (m.friction * pressure) / k + step)
+            REQUIRE(tau == Approx(sliding(slid)).epsilon(1e-3));
+    }
+    CHECK(peak == Approx(m.cohesion + m.friction * pressure).epsilon(5e-3));
+    const double forth = (number - 1) * step, turned = tau;
+    CHECK(tau == Approx((m.friction - 0.5 * fall * m.slip_length) * pressure).epsilon(0.02));
+    for (int back = number - 2; forth - back * step < m.slip_length; --back) {
+        tau = shear_at(back);
+        const double sticks = turned - k * (forth - back * step);
+        // plastic slip forth and back add up
+        const double slid = forth - cracked - turned / k + (forth - back * step) - turned / k;
+        REQUIRE(tau == Approx(std::max(sticks, -sliding(slid))).epsilon(1e-3).margin(1e3));
+    }
+    CHECK(tau == Approx(-m.residual_friction * pressure).epsilon(1e-9));
+    CHECK(a.contacts.crack_slip(0, 1) > 1.4 * m.slip_length);
+}

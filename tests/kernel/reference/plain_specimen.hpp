@@ -59,6 +59,7 @@ struct ContactPoint {
     double area = 0.0;                ///< [m^2]
     flexpm::PointState state;
     double paired_slip = 0.0;  ///< at which its places on the edges lay opposite [m]
+    double crack_slip = 0.0;   ///< plastic slip since the crack, of a law whose friction falls [m]
     int crack_step = -1;
     int crack_mode = 0;
     Point crack_place;

@@ -71,6 +71,16 @@ struct ShearReturn {
     double doubt = 1.0;
 };
 
+/// Friction that is left: linear in the slip since the crack, then constant.
+double friction_left(const LawParameters& law, double crack_slip)
+{
+    const double loss = law.friction - law.residual_friction;
+    if (loss == 0.0) return law.friction;
+    const double length = loss / law.friction_fall;
+    if (crack_slip >= length) return law.residual_friction;
+    return law.friction - loss * crack_slip / length;
+}
+
 /// The slip that brings the traction back solves |trial| - K_s slip = limit - c slip / s_c, on the
 /// falling branch of the limit; it ends where friction alone is left or nothing at all.
 ShearReturn return_shear(
@@ -127,6 +137,8 @@ PointTraction advance(
     const double damage_before =
         std::min(opening_damage(law, old.max_opening) + old.shear_damage, 1.0);
 
+    const double mu = friction_left(law, point.crack_slip);
+
     // normal, with the damage of the opening
     const double apart = old.opening + opening_step;
     const double opening = apart - dilated(law, old.slip, old.shear_traction);
@@ -137,7 +149,7 @@ PointTraction advance(
 
     // shear, with the damage of the slip
     const double trial = old.shear_traction + law.shear_stiffness * slip_step;
-    const double limit = (1.0 - opened) * law.cohesion - law.friction * first_normal;
+    const double limit = (1.0 - opened) * law.cohesion - mu * first_normal;
     const ShearReturn shear = return_shear(law, std::fabs(trial), limit, opened, old.shear_damage);
 
     // normal once more
@@ -158,9 +170,10 @@ PointTraction advance(
     const double lost_by_secant = 0.5 * opening * (first_normal - normal);
     const double along = trial < 0.0 ? -old.shear_traction : old.shear_traction;
     const double slip_work = 0.5 * std::max(along + shear.traction, 0.0) * shear.slip;
-    const double rubbed = std::max(-law.friction * first_normal, 0.0) * shear.slip;
+    const double rubbed = std::max(-mu * first_normal, 0.0) * shear.slip;
     const double friction = damage_before >= 1.0 ? slip_work : std::min(rubbed, slip_work);
 
+    if (law.friction_fall > 0.0 && damage_before >= 1.0) point.crack_slip += shear.slip;
     point.state.opening = apart;
     point.state.max_opening = largest;
     point.state.shear_traction = shear_after;

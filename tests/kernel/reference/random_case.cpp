@@ -108,13 +108,18 @@ flexpm::ElasticMaterial draw_elastic(Random& random)
     return m;
 }
 
-/// Some laws dilate.
+/// Some laws dilate, and the friction of some falls after a crack.
 flexpm::ContactMaterial draw_law(Random& random)
 {
     flexpm::ContactMaterial m = law_path::random_material(random);
-    if (!chance(random, 0.3)) return m;
-    m.dilation = m.friction * random.next();
-    m.dilation_slip = 2.0 * law_path::critical_slip(m) * random.next();
+    if (chance(random, 0.3)) {
+        m.dilation = m.friction * random.next();
+        m.dilation_slip = 2.0 * law_path::critical_slip(m) * random.next();
+    }
+    if (chance(random, 0.4)) {
+        m.residual_friction = between(random, m.dilation, m.friction);
+        m.slip_length = law_path::critical_slip(m) * between(random, 0.1, 2.0);
+    }
     return m;
 }
 

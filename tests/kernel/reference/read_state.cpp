@@ -89,6 +89,7 @@ Contact read_contact(const Assembly& a, int c, const Numbers& number)
         point.area = contacts.area(c, p);
         point.state = contacts.point_state(c, p);
         point.paired_slip = contacts.paired_slip(c, p);
+        point.crack_slip = contacts.crack_slip(c, p);
         const flexpm::PointCrack crack = contacts.crack(c, p);
         point.crack_step = crack.step;
         point.crack_mode = crack.mode;
@@ -170,6 +171,7 @@ void add_point(const ContactPoint& a, const ContactPoint& b, const flexpm::LawPa
     m.way.add(a.state.opening, b.state.opening);
     m.way.add(a.state.max_opening, b.state.max_opening);
     m.way.add(a.state.slip, b.state.slip);
+    m.way.add(a.crack_slip, b.crack_slip);
     m.way.add(
         a.state.shear_traction / law.shear_stiffness, b.state.shear_traction / law.shear_stiffness);
     m.damage.add(a.state.shear_damage, b.state.shear_damage);

@@ -106,6 +106,24 @@ TEST_CASE("A new contact starts without force or energy, presses with K_n and ne
     CHECK(booked(flexpm::energies(a)) == Approx(before).margin(1.1 * late));
 }
 
+TEST_CASE("A new contact has the residual friction at once")
+{
+    Assembly a = row_of_three();
+    for (flexpm::LawParameters& law : a.contacts.laws) {
+        law.residual_friction = 0.5 * law.friction;
+        law.friction_fall = law.residual_friction / 1e-4;
+    }
+    move_last(a, 1e-5, 2000);
+    flexpm::change_contacts(a, { 1 }, {}, 0.7, 1.0);
+    move_last(a, -1e-5, 2000);
+    flexpm::change_contacts(a, {}, { { 1, 2 } }, 0.7, 1.0);
+    const double whole = a.contacts.law_of(2).friction;
+    for (int p = 0; p < a.contacts.points_of(2); ++p) {
+        CHECK(flexpm::friction_of(a.contacts, 2, p) == Approx(0.5 * whole).epsilon(1e-14));
+        CHECK(flexpm::friction_of(a.contacts, 0, p) == whole);
+    }
+}
+
 TEST_CASE("Contacts keep their numbers while others come and go, and no number is given twice")
 {
     Assembly a = row_of_three();

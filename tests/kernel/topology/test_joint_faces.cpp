@@ -143,6 +143,25 @@ TEST_CASE("A joint dilates by its whole slip, whatever partners its faces have h
     CHECK(now.force.y == Approx(-pressure * now.area).epsilon(0.05));
 }
 
+TEST_CASE("The friction of a joint falls with its whole slip, whatever partners its faces have had")
+{
+    const bool rigid = GENERATE(false, true);
+    auto joint = smooth_joint();
+    joint.residual_friction = 0.3;
+    joint.slip_length = 1.5 * size;
+    Assembly a = held_rows(rigid, 3, joint);
+    flexpm::reset_energy_balance(a);
+    move_row(a, { 0.0, press }, 100);
+    for (int i = 1; i <= 20; ++i) {
+        move_row(a, { 0.1 * size, 0.0 }, 200);
+        const Sums now = sums_of(a);
+        const double fallen = std::min(i / 15.0, 1.0) * (joint.friction - joint.residual_friction);
+        CHECK(now.force.x / -now.force.y == Approx(joint.friction - fallen).epsilon(1e-3));
+    }
+    const flexpm::Energies e = flexpm::energies(a);
+    CHECK(balance::miss(e) == Approx(0.0).margin(1e-3 * e.friction));
+}
+
 TEST_CASE("Faces that have not cracked keep their partners")
 {
     auto joint = smooth_joint();

@@ -291,6 +291,12 @@ inline void set_dissipated(
     contacts.state(contact, point, &PointState::friction_energy) = friction;
 }
 
+/// Friction of a point, which falls after a crack [-].
+inline double friction_of(const Contacts& contacts, int contact, int point)
+{
+    return law::friction_after(contacts.law_of(contact), contacts.crack_slip(contact, point));
+}
+
 /// Leave no strength to a point that a load could take: it never counts as a crack.
 inline void take_strength(Contacts& contacts, int contact, int point)
 {

@@ -81,6 +81,8 @@ struct Contacts {
     /// [point]: slip at which its places on the two edges lay opposite to each other [m]; 0 until
     /// faces slide far.
     Array<double> paired_slips;
+    /// [point]: plastic slip since the crack [m]; 0 of a law whose friction stays.
+    Array<double> crack_slips;
     Array<int> crack_steps;           ///< [point]: step of the crack or erasure, -1 while intact
     Array<std::uint8_t> crack_modes;  ///< [point]: CrackMode
     Array<double> crack_positions;    ///< [point][component] where it cracked [m]
@@ -168,6 +170,12 @@ struct Contacts {
         return paired_slips[point_index(contact, point)];
     }
 
+    double& crack_slip(int contact, int point) { return crack_slips[point_index(contact, point)]; }
+    double crack_slip(int contact, int point) const
+    {
+        return crack_slips[point_index(contact, point)];
+    }
+
     Point branch(int contact) const { return vector_at(branches, vector_index(contact)); }
     void set_branch(int contact, Point p) { set_vector(branches, vector_index(contact), p); }
     Point normal(int contact) const { return vector_at(normals, vector_index(contact)); }
@@ -217,6 +225,7 @@ struct Contacts {
         visit(s.normals, dimension, row_index);
         visit(s.states, points * point_rows, row_index);
         visit(s.paired_slips, points, row_index);
+        visit(s.crack_slips, points, row_index);
         visit(s.crack_steps, points, row_index);
         visit(s.crack_modes, points, row_index);
         visit(s.crack_positions, points * dimension, row_index);
@@ -246,6 +255,7 @@ struct Contacts {
         visit("normals", s.normals);
         visit("states", s.states);
         visit("paired_slips", s.paired_slips);
+        visit("crack_slips", s.crack_slips);
         visit("crack_steps", s.crack_steps);
         visit("crack_modes", s.crack_modes);
         visit("crack_positions", s.crack_positions);

@@ -10,6 +10,7 @@ LawRows::LawRows()
 {
     std::fill_n(filled, lanes, -1);
     std::fill_n(lane_dilates, lanes, false);
+    std::fill_n(lane_weakens, lanes, false);
 }
 
 /// Few lanes differ from those of the block before: most find their rows filled.
@@ -28,8 +29,13 @@ void LawRows::fill(const Contacts& contacts, int block)
         store_rows(law, values, l);
         filled[l] = kind;
         lane_dilates[l] = law.dilation_compliance > 0.0;
+        lane_weakens[l] = law::weakens(law);
     }
-    dilating = std::any_of(lane_dilates, lane_dilates + lanes, [](bool one) { return one; });
+    const auto any = [](const bool* flags) {
+        return std::any_of(flags, flags + lanes, [](bool one) { return one; });
+    };
+    dilating = any(lane_dilates);
+    weakening = any(lane_weakens);
 }
 
 }  // namespace flexpm

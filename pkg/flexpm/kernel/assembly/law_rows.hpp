@@ -11,7 +11,9 @@ namespace flexpm {
 struct LawRows {
     int filled[lanes];         ///< index of the law in each lane, -1: none
     bool lane_dilates[lanes];  ///< whether that law dilates
-    bool dilating = false;     ///< whether any of them does
+    bool lane_weakens[lanes];  ///< whether its friction falls after a crack
+    bool dilating = false;     ///< whether any of them dilates
+    bool weakening = false;    ///< whether the friction of any of them falls
     alignas(64) double values[law_rows * lanes];
 
     LawRows();

@@ -29,6 +29,8 @@ struct PairContact {
 
     Vector slip;         ///< elastic slip of the second grain against the first [m]
     double twist = 0.0;  ///< the same about the normal [rad]
+    /// Plastic slip since the crack of `face` [m]; without effect if there is none.
+    double crack_slip = 0.0;
 
     double elastic_energy = 0.0;   ///< of overlap and spring [J]
     double friction_energy = 0.0;  ///< dissipated so far [J]
@@ -58,6 +60,7 @@ struct PairContact {
         visit("slip_y", s.slip.y);
         visit("slip_z", s.slip.z);
         visit("twist", s.twist);
+        visit("crack_slip", s.crack_slip);
         visit("elastic_energy", s.elastic_energy);
         visit("friction_energy", s.friction_energy);
     }

@@ -44,7 +44,7 @@ struct Tetrahedra {
 };
 
 /// Rows of a point of a face that is or was beyond its elastic branch, or shares a block with one:
-/// its slip at the last forces, and its FacePointState. A point without damage reads and writes the
+/// its slip at the last forces, its FacePointState, and its slip since the crack. A point without damage reads and writes the
 /// first ones alone.
 struct FaceRow {
     enum : int {
@@ -56,6 +56,7 @@ struct FaceRow {
         plastic_y,
         damage_energy,
         friction_energy,
+        crack_slip,  ///< plastic slip since the crack [m]; 0 of a law whose friction stays
         count
     };
 };

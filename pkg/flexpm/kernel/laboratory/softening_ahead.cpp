@@ -265,10 +265,11 @@ double factor_along(const State& s, const Velocity& velocity, double dt, const S
         // one that has softened or is open is past its strength, one that slides releases nothing at
         // once
         const bool cracked = damage >= 1.0;
-        const bool slides = !(size_of(now.shear) < -sliding_share * law.friction * now.normal);
+        const double friction = friction_of(s.contacts, c, p);
+        const bool slides = !(size_of(now.shear) < -sliding_share * friction * now.normal);
         if (cracked ? slides : damage > most_damage(s, c)) return;
         const double whole = 1.0 - damage;
-        const Strengths left = { whole * law.tensile_strength, whole * law.cohesion, law.friction };
+        const Strengths left = { whole * law.tensile_strength, whole * law.cohesion, friction };
         const double telling = cracked ? 1.0 : damage_share(law);
         bounds.push_back(softening_bound(
             approach(left, now, growth), s.contacts.area(c, p), telling, crossing, rule.growth));

@@ -31,6 +31,20 @@ void check_energy(const std::string& quantity, double value, double least)
         "below the elastic energy at the strength; give at least " + number(accepted) + " N/m");
 }
 
+/// Refuse a friction that would rise with slip, or take less energy than dilation gives.
+void check_residual(const ContactMaterial& m)
+{
+    check_not_negative("slip_length", m.slip_length, "m");
+    check_not_negative("residual_friction", m.residual_friction, "");
+    if (m.slip_length == 0.0) return;
+    if (m.residual_friction > m.friction)
+        refuse("residual_friction", m.residual_friction, "",
+            "must be <= the friction " + number(m.friction) + "; give a smaller one");
+    if (m.dilation > m.residual_friction * (1.0 + angle_tolerance))
+        refuse("residual_friction", m.residual_friction, "",
+            "must be >= the dilation " + number(m.dilation) + "; give a larger one");
+}
+
 /// Refuse a dilation that would give more energy than friction takes.
 void check_dilation(const ContactMaterial& m)
 {
@@ -53,6 +67,7 @@ LawParameters make_law(const ContactMaterial& m)
     check_positive("tensile_fracture_energy", m.tensile_fracture_energy, "N/m");
     check_positive("shear_fracture_energy", m.shear_fracture_energy, "N/m");
     check_dilation(m);
+    check_residual(m);
 
     LawParameters p;
     p.normal_stiffness = m.normal_stiffness;
@@ -78,6 +93,9 @@ LawParameters make_law(const ContactMaterial& m)
         : brittle_limit;
     p.dilation_compliance = m.dilation / p.shear_stiffness;
     p.dilation_limit = m.dilation_slip * p.shear_stiffness;
+    p.residual_friction = m.slip_length > 0.0 ? m.residual_friction : m.friction;
+    if (m.slip_length > 0.0)
+        p.friction_fall = std::min((m.friction - m.residual_friction) / m.slip_length, brittle_limit);
     return p;
 }
 

@@ -6,6 +6,7 @@
 /// Deviation D2: damage follows the largest opening and the plastic slip so far; no healing.
 /// Deviation D3: unloading in tension goes along the secant.
 /// Deviation D43: plastic slip opens a joint that dilates, and slip back closes it.
+/// Deviation D108: the friction of a cracked point falls with its plastic slip since the crack.
 #pragma once
 
 #include <flexpm/kernel/core/compiler.hpp>
@@ -26,6 +27,10 @@ struct ContactMaterial {
     double shear_fracture_energy = 0.0;    ///< G_fs   [N/m],  >= tau^2 / (2 eta K_n)
     double dilation = 0.0;       ///< tan psi [-], >= 0 and <= friction: opening per plastic slip
     double dilation_slip = 0.0;  ///< plastic slip at which dilation ends [m], >= 0
+    /// mu_r [-], >= dilation and <= friction, without effect if `slip_length` is 0
+    double residual_friction = 0.0;
+    /// plastic slip since the crack at which friction has fallen to mu_r [m]; 0: it does not fall
+    double slip_length = 0.0;
 };
 
 /// Properties of a contact in the form that the law needs at every step.
@@ -44,6 +49,8 @@ struct LawParameters {
         0.0;  ///< 1 / (eta K_n - tau / s_c) [m/Pa]; `brittle_limit` in the limit
     double dilation_compliance = 0.0;  ///< tan psi / (eta K_n) [m/Pa]
     double dilation_limit = 0.0;       ///< eta K_n times the slip at which dilation ends [Pa]
+    double residual_friction = 0.0;    ///< mu_r [-]
+    double friction_fall = 0.0;  ///< (mu_c - mu_r) / slip length [1/m], 0: friction stays
 
     /// Calls visit(name, member) for all members in the order of their rows.
     template <class Self, class Visitor>
@@ -61,6 +68,8 @@ struct LawParameters {
         visit("slip_compliance", s.slip_compliance);
         visit("dilation_compliance", s.dilation_compliance);
         visit("dilation_limit", s.dilation_limit);
+        visit("residual_friction", s.residual_friction);
+        visit("friction_fall", s.friction_fall);
     }
 };
 
@@ -127,6 +136,21 @@ inline double dilated(const LawParameters& p, double plastic)
 inline double dilated(const LawParameters& p, double slip, double shear_traction)
 {
     return dilated(p, std::fabs(p.shear_stiffness * slip - shear_traction));
+}
+
+/// Whether friction falls after a crack.
+inline bool weakens(const LawParameters& p) { return p.friction_fall > 0.0; }
+
+/// Friction of a point after a plastic slip since its crack [m], 0 of an intact point [-].
+inline double friction_after(const LawParameters& p, double crack_slip)
+{
+    return std::max(p.friction - p.friction_fall * crack_slip, p.residual_friction);
+}
+
+/// Slip since the crack from which on the friction is the residual one [m].
+inline double slip_to_residual(const LawParameters& p)
+{
+    return weakens(p) ? (p.friction - p.residual_friction) / p.friction_fall : 0.0;
 }
 
 /// Opening less what dilation has made of it [m]: what the normal traction follows.

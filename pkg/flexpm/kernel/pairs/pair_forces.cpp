@@ -298,7 +298,8 @@ void update_pair(const SolidState& s, PairContact& pair, PairWork& work, double 
     const std::array<double, modes> way = ways_of(s, room.sides, at, loads, dt);
     const PairWay moved { way[0] * first + way[1] * second, way[2] };
     const PairFriction rubs =
-        advance_friction(pair, press, moved, law.shear_stiffness, law.friction);
+        advance_friction(pair, press, moved, law.shear_stiffness, friction_of(pair, law));
+    if (law::weakens(law)) pair.crack_slip += rubs.slid;
     // friction holds the second grain back
     const std::array<double, modes> sizes { -dot(rubs.force, first), -dot(rubs.force, second),
         -rubs.moment };

@@ -74,6 +74,11 @@ PairFriction advance_friction(PairContact& pair, const PairPress& press, const P
     return now;
 }
 
+double friction_of(const PairContact& pair, const LawParameters& law)
+{
+    return pair.face < 0 ? law.residual_friction : law::friction_after(law, pair.crack_slip);
+}
+
 void release_friction(PairContact& pair, double shear_stiffness)
 {
     pair.friction_energy += spring_energy(pair, shear_stiffness);

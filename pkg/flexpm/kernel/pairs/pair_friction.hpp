@@ -47,6 +47,9 @@ double spring_energy(const PairContact& pair, double shear_stiffness);
 PairFriction advance_friction(PairContact& pair, const PairPress& press, const PairWay& way,
     double shear_stiffness, double friction);
 
+/// Friction of a pair: of one that has met anew the residual friction of its law [-].
+double friction_of(const PairContact& pair, const LawParameters& law);
+
 /// Leave the springs of a pair that does not press: what they store is dissipated.
 void release_friction(PairContact& pair, double shear_stiffness);
 

@@ -54,6 +54,7 @@ struct FaceLoad {
     double damage = 0.0;           ///< dissipated [J]
     double friction = 0.0;         ///< [J]
     double closure = 0.0;          ///< largest elastic closure of a point [m]
+    double crack_slip = 0.0;       ///< at which one point would have their friction [m]
     Vector force;                  ///< on the second grain [N]
 };
 
@@ -63,18 +64,27 @@ FaceLoad load_of(const SolidState& s, int contact)
     const LawParameters& law = c.law_of(contact);
     const std::vector<FacePlace> places = places_of(s, contact);
     FaceLoad load;
+    double pressed = 0.0, mean = 0.0;
     for (int p = 0; p < c.points_of(contact); ++p) {
         const FacePointState state = c.point_state(contact, p);
         const double area = c.area(contact, p), whole = law::elastic_energy(law, places[p], state);
-        const Point slip = places[p].slip - state.plastic_slip;
-        const double shear = 0.5 * law.shear_stiffness * dot(slip, slip);
+        const Point elastic = places[p].slip - state.plastic_slip;
+        const double shear = 0.5 * law.shear_stiffness * dot(elastic, elastic);
         load.pressure_energy += area * (whole - shear);
         const double closure = std::sqrt(2.0 * std::max(whole - shear, 0.0) / law.normal_stiffness);
         if (closure > load.closure) load.closure = closure;
         load.shear_energy += area * shear;
         load.damage += area * state.damage_energy;
         load.friction += area * state.friction_energy;
+        // friction falls in proportion to the slip up to its residual value
+        const double slip =
+            std::min(c.state(contact, p, FaceRow::crack_slip), law::slip_to_residual(law));
+        const double force = area * closure;
+        load.crack_slip += force * slip;
+        pressed += force;
+        mean += slip / c.points_of(contact);
     }
+    load.crack_slip = pressed > 0.0 ? load.crack_slip / pressed : mean;
     load.force = contact_force(s, contact);
     return load;
 }
@@ -289,6 +299,7 @@ void take_over(SolidState& s, int contact, const FaceLoad& load)
     const LawParameters& law = s.contacts.law_of(contact);
     pair->law = s.contacts.law[contact];
     pair->face = contact;
+    pair->crack_slip = load.crack_slip;
     const PairWork& work = s.plan.pairs.pairs[number];
     const auto body = [&](int k) { return s.plan.pairs.bodies[work.bodies[k]].view(); };
     thread_local SpaceOverlap overlap;

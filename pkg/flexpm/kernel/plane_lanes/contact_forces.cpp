@@ -34,6 +34,24 @@ template <int Points> FLEXPM_INLINE bool is_intact(const ContactLanes& b)
     return !any_of(damaged);
 }
 
+/// Law of a point: one that has cracked may have lost friction.
+///
+/// @tparam Extended  false: no law of the block dilates, and no friction has fallen
+template <bool Extended> FLEXPM_INLINE LawParameters law_at(const ContactLanes& b, int p, int l)
+{
+    LawParameters law = load_rows<LawParameters>(b.law, l);
+    if (Extended) law.friction = law::friction_after(law, b.crack_slip[p * lanes + l]);
+    return law;
+}
+
+/// Plastic slip of a step [m], 0 of one on the elastic branch, from the shear tractions before and
+/// after it.
+FLEXPM_INLINE double plastic_slip(
+    const LawParameters& law, double before, double slip_step, double after)
+{
+    return std::fabs(before + law.shear_stiffness * slip_step - after) / law.shear_stiffness;
+}
+
 /// Rows of a state that an elastic step changes: the first ones.
 constexpr int elastic_rows = row_of<&PointState::slip> + 1;
 
@@ -45,7 +63,7 @@ struct TractionRows {
 
 /// Slides the points that leave their branch, which shear has used up: `next` holds what an elastic
 /// step would have made of all.
-template <bool Dilating>
+template <bool Extended>
 FLEXPM_INLINE void slide_lanes(
     const ContactLanes& b, int p, const std::int64_t* leaves, double* next, TractionRows traction)
 {
@@ -57,9 +75,14 @@ FLEXPM_INLINE void slide_lanes(
         trial.opening = next[row_of<&PointState::opening> * lanes + l];
         trial.shear_traction = next[row_of<&PointState::shear_traction> * lanes + l];
         trial.slip = next[row_of<&PointState::slip> * lanes + l];
-        const Sliding slide = slide_used_up<Dilating>(
-            load_rows<LawParameters>(b.law, l), traction.normal[l], s, trial);
+        const LawParameters law = law_at<Extended>(b, p, l);
+        const Sliding slide = slide_used_up<Extended>(law, traction.normal[l], s, trial);
         const bool slides = leaves[l] != 0;
+        if (Extended) {
+            const double plastic =
+                std::fabs(trial.shear_traction - slide.shear) / law.shear_stiffness;
+            b.crack_slip[p * lanes + l] += (slides & law::weakens(law)) ? plastic : 0.0;
+        }
         traction.normal[l] = slides ? slide.normal : traction.normal[l];
         traction.shear[l] = slides ? slide.shear : traction.shear[l];
         next[row_of<&PointState::shear_traction> * lanes + l] = traction.shear[l];
@@ -70,7 +93,7 @@ FLEXPM_INLINE void slide_lanes(
 
 /// Advances a point of each contact if all stay on their branches or only friction holds them;
 /// otherwise changes no state.
-template <bool Intact, bool Dilating>
+template <bool Intact, bool Extended>
 FLEXPM_INLINE bool advance_elastic_lanes(
     const ContactLanes& b, const PointMotion& motion, int p, TractionRows traction)
 {
@@ -82,7 +105,7 @@ FLEXPM_INLINE bool advance_elastic_lanes(
         PointState s;
         Traction t;
         const PointState old = load_rows<PointState>(state, l);
-        const bool elastic = advance_elastic<Intact, Dilating>(load_rows<LawParameters>(b.law, l),
+        const bool elastic = advance_elastic<Intact, Extended>(law_at<Extended>(b, p, l),
             motion.opening[p * lanes + l], motion.slip[p * lanes + l], old, s, t);
         next[row_of<&PointState::opening> * lanes + l] = s.opening;
         next[row_of<&PointState::max_opening> * lanes + l] = s.max_opening;
@@ -95,7 +118,7 @@ FLEXPM_INLINE bool advance_elastic_lanes(
     }
     if (any_of(leaves)) {
         if (Intact || any_of(needs_law)) return false;
-        slide_lanes<Dilating>(b, p, leaves, next, traction);
+        slide_lanes<Extended>(b, p, leaves, next, traction);
     }
     for (int i = 0; i < elastic_rows * lanes; ++i)
         state[i] = next[i];
@@ -103,7 +126,7 @@ FLEXPM_INLINE bool advance_elastic_lanes(
 }
 
 /// Advances a point of each contact. Returns the lanes that cracked in this step.
-template <bool Dilating>
+template <bool Extended>
 FLEXPM_INLINE int advance_lanes(const ContactLanes& b, const PointMotion& motion, int p,
     TractionRows traction, std::uint8_t* cracked)
 {
@@ -112,8 +135,15 @@ FLEXPM_INLINE int advance_lanes(const ContactLanes& b, const PointMotion& motion
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         PointState s = load_rows<PointState>(state, l);
-        const Traction t = advance_point<Dilating>(load_rows<LawParameters>(b.law, l),
-            motion.opening[p * lanes + l], motion.slip[p * lanes + l], s);
+        const LawParameters law = law_at<Extended>(b, p, l);
+        const double slip_step = motion.slip[p * lanes + l], before = s.shear_traction;
+        const Traction t =
+            advance_point<Extended>(law, motion.opening[p * lanes + l], slip_step, s);
+        if (Extended) {
+            const bool rubs = (t.damage_before >= 1.0) & law::weakens(law);
+            b.crack_slip[p * lanes + l] +=
+                rubs ? plastic_slip(law, before, slip_step, t.shear) : 0.0;
+        }
         store_rows(s, state, l);
         traction.normal[l] = t.normal;
         traction.shear[l] = t.shear;
@@ -128,7 +158,7 @@ FLEXPM_INLINE int advance_lanes(const ContactLanes& b, const PointMotion& motion
 }
 
 /// Returns the lanes, summed over points, that cracked in this step; `cracked` holds zeros before.
-template <int Points, bool Intact, bool Dilating>
+template <int Points, bool Intact, bool Extended>
 FLEXPM_INLINE int advance_points(const ContactLanes& b, const PointMotion& motion, double* normal,
     double* shear, std::uint8_t* cracked)
 {
@@ -139,8 +169,8 @@ FLEXPM_INLINE int advance_points(const ContactLanes& b, const PointMotion& motio
             const int row = (b.prefetch_distance * Points + p) * point_rows;
             prefetch_rows(b.state + row * lanes, point_rows);
         }
-        if (advance_elastic_lanes<Intact, Dilating>(b, motion, p, traction)) continue;
-        cracks += advance_lanes<Dilating>(b, motion, p, traction, cracked + p * lanes);
+        if (advance_elastic_lanes<Intact, Extended>(b, motion, p, traction)) continue;
+        cracks += advance_lanes<Extended>(b, motion, p, traction, cracked + p * lanes);
     }
     return cracks;
 }
@@ -157,7 +187,8 @@ FLEXPM_INLINE int update_lanes(const ContactLanes& b, double dt, std::uint8_t* c
 
     alignas(64) double normal[Points * lanes], shear[Points * lanes];
     const bool intact = is_intact<Points>(b);
-    const int cracks = b.dilating
+    // the friction of intact points is whole
+    const int cracks = b.dilating || (b.weakening && !intact)
         ? advance_points<Points, false, true>(b, motion, normal, shear, cracked)
         : intact ? advance_points<Points, true, false>(b, motion, normal, shear, cracked)
                  : advance_points<Points, false, false>(b, motion, normal, shear, cracked);
@@ -194,7 +225,8 @@ ContactLanes rows_from(Assembly& a, int block, const LawRows& law)
         contacts.normals.data() + contact * dimension,
         contacts.states.data() + contact * points * point_rows,
         contacts.paired_slips.data() + contact * points,
-        contacts.forces.data() + contact * Contacts::force_values, law.values, false, false,
+        contacts.crack_slips.data() + contact * points,
+        contacts.forces.data() + contact * Contacts::force_values, law.values, false, false, false,
         a.plan.prefetch.needed ? block_distance : 0 };
 }
 
@@ -209,6 +241,7 @@ void advance_block(ContactLanes& b, int points)
     b.normal += lanes * dimension;
     b.state += lanes * points * point_rows;
     b.paired_slip += lanes * points;
+    b.crack_slip += lanes * points;
     b.force += lanes * Contacts::force_values;
 }
 
@@ -229,6 +262,7 @@ void update_contact_blocks(Assembly& a, int first, int end, double dt)
             prefetch_nodes(a, block + node_distance);
         }
         rows.dilating = law.dilating;
+        rows.weakening = law.weakening;
         rows.whole_edges = a.plan.whole_edges[block] != 0;
         std::uint8_t cracked[most_points * lanes] = {};
         if (update(rows, dt, cracked) > 0) record_cracks(a, block, dt, cracked);

@@ -29,9 +29,11 @@ struct ContactLanes {
     double* normal;
     double* state;
     const double* paired_slip;
+    double* crack_slip;
     double* force;
     const double* law;      ///< LawRows
     bool dilating;          ///< whether any of these laws dilates
+    bool weakening;         ///< whether the friction of any of them falls after a crack
     bool whole_edges;       ///< see StepPlan::whole_edges
     int prefetch_distance;  ///< blocks to the one to ask for; 0: the caches hold all
 };

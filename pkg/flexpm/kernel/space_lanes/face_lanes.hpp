@@ -30,11 +30,11 @@ FLEXPM_INLINE FacePointState load_state(const double* rows, int l)
 /// Laws of a block of contacts in rows.
 struct FaceLaws {
     alignas(64) double rows[row_count<LawParameters> * lanes];
-    bool dilating = false;
+    bool dilating = false, weakening = false;
 
     void fill(const FaceContacts& contacts, int block)
     {
-        dilating = false;
+        dilating = weakening = false;
         for (int l = 0; l < lanes; ++l) {
             const int contact = contacts.in_slot[block * lanes + l];
             // padded lanes follow the first one
@@ -42,6 +42,7 @@ struct FaceLaws {
                 contacts.law_of(contact >= 0 ? contact : contacts.in_slot[block * lanes]);
             store_rows(law, rows, l);
             dilating = dilating || law.dilation_compliance > 0.0;
+            weakening = weakening || law::weakens(law);
         }
     }
 };
@@ -61,6 +62,7 @@ struct FaceLanes {
     const double* shares;
     const double* law;  ///< [row of LawParameters][lane]
     bool dilating;      ///< whether any of these laws dilates
+    bool weakening;     ///< whether the friction of any of them falls after a crack
 };
 
 inline FaceLanes face_lanes(const SolidState& s, int block, const FaceLaws& laws)
@@ -70,7 +72,7 @@ inline FaceLanes face_lanes(const SolidState& s, int block, const FaceLaws& laws
     return { c.group_in(block), s.grains.displacement.data(), c.nodes.data() + nodes,
         c.line.data() + block * lanes, c.places.data() + nodes / 2 * 3,
         c.areas.data() + c.block_points[block], c.shares.data() + c.block_shares[block], laws.rows,
-        laws.dilating };
+        laws.dilating, laws.weakening };
 }
 
 /// Where the forces of a block go.

@@ -51,9 +51,21 @@ FLEXPM_INLINE bool any_of(const std::int64_t* row)
     return any != 0;
 }
 
+/// Law of a point: one that has cracked may have lost friction.
+///
+/// @tparam Extended  false: no law of the block dilates, and no friction falls
+template <bool Extended>
+FLEXPM_INLINE LawParameters law_at(const double* law_rows, const double* state, int l)
+{
+    LawParameters law = load_rows<LawParameters>(law_rows, l);
+    if (Extended)
+        law.friction = law::friction_after(law, state[FaceRow::crack_slip * lanes + l]);
+    return law;
+}
+
 /// Tractions of a point of each contact if all stay on their branches, and with `Intact` have no
 /// damage, which is true of most; otherwise changes no state.
-template <bool Intact, bool Dilating>
+template <bool Intact, bool Extended>
 FLEXPM_INLINE bool hold_lanes(
     const double* law_rows, const double* places, double* state, double* traction)
 {
@@ -62,10 +74,10 @@ FLEXPM_INLINE bool hold_lanes(
     FLEXPM_INDEPENDENT
     for (int l = 0; l < lanes; ++l) {
         const FacePlace at = load_place(places, l);
-        const LawParameters law = load_rows<LawParameters>(law_rows, l);
+        const LawParameters law = law_at<Extended>(law_rows, state, l);
         FaceTraction t;
         double max_opening = 0.0;
-        const bool holds = hold_face_point<Intact, Dilating>(law, at,
+        const bool holds = hold_face_point<Intact, Extended>(law, at,
             Intact ? FacePointState { state[FaceRow::max_opening * lanes + l], {}, 0.0, 0.0, 0.0 }
                    : load_state(state, l),
             max_opening, t);
@@ -84,7 +96,7 @@ FLEXPM_INLINE bool hold_lanes(
 }
 
 /// Advances a point of each contact by the whole law.
-template <bool Dilating>
+template <bool Extended>
 FLEXPM_INLINE void advance_lanes(const double* law_rows, const double* places, double* state,
     double* traction, int point, FreshCracks& cracks)
 {
@@ -95,8 +107,14 @@ FLEXPM_INLINE void advance_lanes(const double* law_rows, const double* places, d
         const Point before { state[FaceRow::slip_x * lanes + l],
             state[FaceRow::slip_y * lanes + l] };
         FacePointState s = load_state(state, l);
-        const FaceTraction t =
-            advance_face_point<Dilating>(load_rows<LawParameters>(law_rows, l), at, before, s);
+        const LawParameters law = law_at<Extended>(law_rows, state, l);
+        const Point plastic = s.plastic_slip;
+        const FaceTraction t = advance_face_point<Extended>(law, at, before, s);
+        if (Extended) {
+            const bool rubs = (t.damage_before >= 1.0) & law::weakens(law);
+            state[FaceRow::crack_slip * lanes + l] +=
+                rubs ? law::length(s.plastic_slip - plastic) : 0.0;
+        }
         store_state(s, state, l);
         store_slip(at.slip, state, l);
         store_vector({ t.normal, t.shear.x, t.shear.y }, traction, l);
@@ -108,7 +126,7 @@ FLEXPM_INLINE void advance_lanes(const double* law_rows, const double* places, d
 }
 
 /// Advances all points.
-template <bool Dilating, class Lanes>
+template <bool Extended, class Lanes>
 FLEXPM_INLINE void advance_points(
     const Lanes& b, typename Lanes::Motion& m, double* states, FreshCracks& cracks)
 {
@@ -118,9 +136,10 @@ FLEXPM_INLINE void advance_points(
         double* state = states + p * FaceRow::count * lanes;
         find_jump(b, m, p, jump);
         find_places(m, jump, places);
-        if (!(!Dilating && hold_lanes<true, false>(b.law, places, state, traction))
-            && !hold_lanes<false, Dilating>(b.law, places, state, traction))
-            advance_lanes<Dilating>(b.law, places, state, traction, p, cracks);
+        if (!((!Extended || !b.dilating)
+                && hold_lanes<true, false>(b.law, places, state, traction))
+            && !hold_lanes<false, Extended>(b.law, places, state, traction))
+            advance_lanes<Extended>(b.law, places, state, traction, p, cracks);
         find_force(m, b.areas + p * lanes, traction, force);
         add_force(b, p, force, jump, m);
     }
@@ -134,7 +153,7 @@ FLEXPM_INLINE int update_block(
     typename Lanes::Motion m;
     find_motion(b, m, std::bool_constant<Wide>());
     find_frames(b, m);
-    if (b.dilating) {
+    if (b.dilating || b.weakening) {
         advance_points<true>(b, m, states, cracks);
     } else {
         advance_points<false>(b, m, states, cracks);

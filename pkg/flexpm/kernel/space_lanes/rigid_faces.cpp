@@ -36,6 +36,7 @@ struct RigidFaceLanes {
     const double* areas;
     const double* law;  ///< [row of LawParameters][lane]
     bool dilating;      ///< whether any of these laws dilates
+    bool weakening;     ///< whether the friction of any of them falls after a crack
 
     FLEXPM_INLINE const double* row(int number) const { return faces + number * lanes; }
     FLEXPM_INLINE const double* line() const { return places + RigidPlaceRow::line * lanes; }
@@ -307,7 +308,8 @@ struct RigidFaces {
             s.plan.face_grains.data() + 2 * block * lanes,
             s.plan.faces.data() + SolidPlan::first_face(block),
             s.plan.face_places.data() + SolidPlan::first_place(c, block),
-            c.areas.data() + c.block_points[block], laws.rows, laws.dilating };
+            c.areas.data() + c.block_points[block], laws.rows, laws.dilating,
+            laws.weakening };
     }
 
     static FaceForces forces_of(SolidState& s, int block)

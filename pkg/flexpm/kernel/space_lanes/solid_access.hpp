@@ -47,6 +47,13 @@ inline void take_strength(FaceContacts& contacts, int contact, int point)
     contacts.set_state(contact, point, FaceRow::shear_damage, 1.0);
 }
 
+/// Friction of a point, which falls after a crack [-].
+inline double friction_of(const FaceContacts& contacts, int contact, int point)
+{
+    return law::friction_after(
+        contacts.law_of(contact), contacts.state(contact, point, FaceRow::crack_slip));
+}
+
 /// Pairs of grains whose faces lie on each other, ascending.
 std::vector<GrainPair> mated_pairs(const SolidState& s);
 

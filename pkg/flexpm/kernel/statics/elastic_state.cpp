@@ -112,7 +112,7 @@ public:
             if (!now.closed[at] || !points.rubs(c, p)) return;
             const PointTraction t = traction_of(s.contacts, c, p);
             const double limit =
-                (1.0 + no_gap) * s.contacts.law_of(c).friction * std::max(-t.normal, 0.0);
+                (1.0 + no_gap) * friction_of(s.contacts, c, p) * std::max(-t.normal, 0.0);
             count += now.sticks[at] == 0.0 || std::fabs(t.shear) > limit;
         });
         return count;

@@ -82,7 +82,7 @@ public:
     bool rubs(int contact, int point) const
     {
         return damage_of(a.contacts, contact, point) >= 1.0
-            && a.contacts.law_of(contact).friction > 0.0;
+            && friction_of(a.contacts, contact, point) > 0.0;
     }
 
     /// Stiffnesses of all.

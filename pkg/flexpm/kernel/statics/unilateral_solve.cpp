@@ -35,11 +35,10 @@ double pressure_of(const Contacts& contacts, int contact, int point)
 /// Whether all of a contact is cracked and its faces slide past each other.
 bool slides(const Contacts& contacts, int contact)
 {
-    const LawParameters& law = contacts.law_of(contact);
     for (int p = 0; p < contacts.points_of(contact); ++p) {
         const double shear = traction_of_state(contacts, contact, p).shear;
         const double pressure = pressure_of(contacts, contact, p);
-        const double limit = sliding_share * law.friction * pressure;
+        const double limit = sliding_share * friction_of(contacts, contact, p) * pressure;
         if (damage_of(contacts, contact, p) < softened) return false;
         if (pressure > 0.0 && std::fabs(shear) < limit) return false;
     }

@@ -34,6 +34,7 @@ void fill_touch(Assembly& a, int c, GrainPair pair)
     const int points = contacts.points_of(c);
     for (int p = 0; p < points; ++p) {
         contacts.area(c, p) = area / points;
+        contacts.crack_slip(c, p) = law::slip_to_residual(contacts.law_of(c));
     }
     contacts.set_branch(c,
         a.grains.reference_at(a.grains.centre(pair[1]))
@@ -60,6 +61,7 @@ void fill_face(Assembly& a, int c, const FaceContact& face)
         contacts.area(c, p) = point.area;
         contacts.set_point_state(c, p, point.state);
         contacts.paired_slip(c, p) = point.state.slip;
+        contacts.crack_slip(c, p) = point.crack_slip;
     }
     contacts.set_normal(c, face.normal);
 }

@@ -238,14 +238,15 @@ bool is_elsewhere(const Assembly& a, int contact, const Overlap& o)
 struct Handed {
     double shear_traction = 0.0;
     double slip = 0.0;
+    double crack_slip = 0.0;
 };
 
-/// Traction and slip of a contact at a share of an edge, linear between its points.
+/// Traction and slips of a contact at a share of an edge, linear between its points.
 Handed value_at(const Contacts& contacts, int contact, int side, double share)
 {
     const auto value = [&](int p) {
         return Handed { traction_of_state(contacts, contact, p).shear,
-            slip_of(contacts, contact, p) };
+            slip_of(contacts, contact, p), contacts.crack_slip(contact, p) };
     };
     const int last = contacts.points_of(contact) - 1;
     if (last == 0) return value(0);
@@ -257,7 +258,7 @@ Handed value_at(const Contacts& contacts, int contact, int side, double share)
     const double t = std::min(std::max(part, 0.0), 1.0);
     const Handed x = value(p - 1), y = value(p);
     return { x.shear_traction + t * (y.shear_traction - x.shear_traction),
-        x.slip + t * (y.slip - x.slip) };
+        x.slip + t * (y.slip - x.slip), x.crack_slip + t * (y.crack_slip - x.crack_slip) };
 }
 
 /// A contact that now acts on a face, and the side of it that does.
@@ -275,10 +276,12 @@ std::vector<Acting> acting_on(const Contacts& contacts, const Joint& joint, cons
     return found;
 }
 
-/// What the one of these contacts hands over that acts nearest to a place of their face.
-Handed handed_over(const Assembly& a, const std::vector<Acting>& acting, double place)
+/// What the one of these contacts hands over that acts nearest to a place of their face; where none
+/// acts, the friction is the residual one.
+Handed handed_over(
+    const Assembly& a, const LawParameters& law, const std::vector<Acting>& acting, double place)
 {
-    Handed nearest;
+    Handed nearest { 0.0, 0.0, law::slip_to_residual(law) };
     double least = -1.0;
     for (const Acting& on : acting) {
         const double share = on.side == 0 ? place : 1.0 - place;  // edges run one way, faces two
@@ -331,8 +334,10 @@ FaceContact contact_of(const Assembly& a, const Joint& joint, int number, const 
         point.area = places.share[p] * area;
         const Point apart = lines[1].at(point.weight[1]) - lines[0].at(point.weight[0]);
         const double place = of_first ? point.weight[0] : 1.0 - point.weight[1];
-        point.state = state_between(
-            a.contacts.laws[made.law], dot(apart, made.normal), handed_over(a, acting, place));
+        const LawParameters& law = a.contacts.laws[made.law];
+        const Handed handed = handed_over(a, law, acting, place);
+        point.state = state_between(law, dot(apart, made.normal), handed);
+        point.crack_slip = handed.crack_slip;
     }
     return made;
 }

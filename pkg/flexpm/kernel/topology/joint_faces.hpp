@@ -31,6 +31,7 @@ struct FaceContact {
         double weight[2] = { 0.0, 0.0 };  ///< share of each face's second node [-]
         double area = 0.0;                ///< [m^2]
         PointState state;
+        double crack_slip = 0.0;  ///< [m]
     };
     std::vector<Place> points;
 };

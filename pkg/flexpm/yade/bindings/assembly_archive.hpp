@@ -41,7 +41,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::SteadyMotion& part, unsigned) { archiveMembers(archive, part); }
 
 	/// Version of what visit_members() lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned assemblyVersion = 29;
+	constexpr unsigned assemblyVersion = 30;
 
 	template <class Archive> void serialize(Archive& archive, flexpm::Assembly& assembly, unsigned version)
 	{
@@ -63,7 +63,7 @@ namespace serialization {
 	template <class Archive> void serialize(Archive& archive, flexpm::RigidBody& part, unsigned) { archiveMembers(archive, part); }
 
 	/// Version of what SolidState lists and how it lies in memory: to be raised with each change of either.
-	constexpr unsigned solidVersion = 8;
+	constexpr unsigned solidVersion = 9;
 
 	/// Call flexpm::prepare_step() after loading.
 	template <class Archive> void serialize(Archive& archive, flexpm::SolidState& solid, unsigned version)

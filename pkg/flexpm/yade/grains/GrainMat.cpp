@@ -20,7 +20,7 @@ namespace {
 		Real (*value)(const GrainMat&);
 	};
 
-	constexpr std::array<Property, 13> properties { {
+	constexpr std::array<Property, 15> properties { {
 		{ "young", " Pa", [](const auto& m) { return m.young; } },
 		{ "poisson", "", [](const auto& m) { return m.poisson; } },
 		{ "density", " kg/m^3", [](const auto& m) { return m.density; } },
@@ -33,6 +33,8 @@ namespace {
 		{ "shearFractureEnergy", " N/m", [](const auto& m) { return m.shearFractureEnergy; } },
 		{ "dilation", "", [](const auto& m) { return m.dilation; } },
 		{ "dilationSlip", " m", [](const auto& m) { return m.dilationSlip; } },
+		{ "residualFriction", "", [](const auto& m) { return m.residualFriction; } },
+		{ "slipLength", " m", [](const auto& m) { return m.slipLength; } },
 		{ "planeStrain", "", [](const auto& m) { return Real(m.planeStrain); } },
 	} };
 
@@ -55,6 +57,8 @@ flexpm::ContactMaterial contactOf(const GrainMat& m)
 	c.shear_fracture_energy   = m.shearFractureEnergy;
 	c.dilation                = m.dilation;
 	c.dilation_slip           = m.dilationSlip;
+	c.residual_friction       = m.residualFriction;
+	c.slip_length             = m.slipLength;
 	return c;
 }
 

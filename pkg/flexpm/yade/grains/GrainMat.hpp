@@ -20,11 +20,13 @@ public:
 		((Real, shearRatio, 0.28,, "Ratio eta of shear to normal stiffness, Eq. 23 [-]."))
 		((Real, tensileStrength, 8.5e6,, "Tensile strength of a contact point, Eq. 24 [Pa]."))
 		((Real, cohesion, 29.75e6,, "Cohesion of a contact point, Eq. 25 [Pa]."))
-		((Real, friction, 0.4,, "Coefficient of friction mu_c, Eq. 25, which also acts after cracking [-]."))
+		((Real, friction, 0.4,, "Coefficient of friction mu_c, Eq. 25, which also acts when a point has cracked [-]."))
 		((Real, tensileFractureEnergy, 20.,, "Area under the tensile softening curve, Fig. 3a [N/m]."))
 		((Real, shearFractureEnergy, 800.,, "Area under the shear softening curve, Fig. 3b [N/m]."))
 		((Real, dilation, 0.,, "Tangent of the dilation angle of a joint, at most its friction: opening per plastic slip [-]."))
 		((Real, dilationSlip, 0.,, "Plastic slip at which the dilation ends [m]."))
+		((Real, residualFriction, 0.,, "Coefficient of friction after a slip of slipLength since the crack [-]."))
+		((Real, slipLength, 0.,, "Plastic slip since the crack at which friction has fallen to residualFriction [m]; 0: friction stays."))
 		((bool, planeStrain, false,, "Plane strain instead of plane stress."))
 		, createIndex(); density = 2650;
 	);
