@@ -158,6 +158,10 @@ JOINT = {
             ["number", "null"], "Angle by which plastic slip opens the joint [degrees]"
         ),
         "dilation_slip": entry(["number", "null"], "Plastic slip up to which it does [m]"),
+        "residual_friction": entry(
+            ["number", "null"], "Friction after a slip of slip_length since the crack [-]"
+        ),
+        "slip_length": entry(["number", "null"], "Slip since the crack until then [m]"),
     },
 }
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from ..errors import InputError
 from ..files import Table
 from ..require import quoted, require_flag, require_known, require_number, require_table
-from .keys import JOINT_BOUNDS, JOINT_UNITS
+from .keys import JOINT_BOUNDS, JOINT_UNITS, RESIDUAL_KEYS, check_residual
 
 _REQUIRED = ("normal_stiffness", "shear_stiffness", "friction")
 _STRENGTHS = {
@@ -36,6 +36,8 @@ class Joint:
     shear_fracture_energy: float | None = None  #: [N/m]; None: brittle
     dilation_angle: float = 0.0  #: opening per plastic slip, at most the friction angle [degrees]
     dilation_slip: float | None = None  #: plastic slip at which the dilation ends [m]
+    residual_friction: float | None = None  #: of a cracked point; None: friction does not fall [-]
+    slip_length: float | None = None  #: slip since the crack at which it is reached [m]
     open: bool = False  #: a notch: what is not given is that of the rock
 
     def __post_init__(self) -> None:
@@ -91,6 +93,8 @@ class Joint:
                 "shear_stiffness": ratio * stiffness,
                 "friction": rock["friction"],
             }
+            if found["friction"] is None and found["residual_friction"] is None:
+                usual |= {key: rock.get(key) for key in RESIDUAL_KEYS}
             found |= {key: value for key, value in usual.items() if found[key] is None}
         for strength, (stiffness_key, energy) in _STRENGTHS.items():
             elastic = found[strength] ** 2 / (2.0 * found[stiffness_key])
@@ -103,6 +107,7 @@ class Joint:
             if given is None and elastic > 0.0:
                 found[energy] = elastic
         self._check_dilation(float(found["friction"]))
+        self._check_residual(found)
         return found
 
     def _values(self) -> Table:
@@ -132,6 +137,20 @@ class Joint:
         if self.dilation_slip is None:
             raise InputError(
                 f"{label} dilation_slip is missing; give the slip at which the dilation ends [m]"
+            )
+
+    def _check_residual(self, law: Mapping[str, object]) -> None:
+        """Reject a residual friction that rises, or dissipates less energy than dilation supplies."""
+        label = f"material [joint.{self.name}]"
+        check_residual(label, law)
+        residual = law["residual_friction"]
+        if not isinstance(residual, float):
+            return
+        least = math.tan(math.radians(self.dilation_angle))
+        if residual < least:
+            raise InputError(
+                f"{label} residual_friction = {residual!r}, must be >= the tangent of the dilation "
+                f"angle, {least:.4g}; raise it, or lower the dilation angle"
             )
 
     def _refuse_strengths(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ..errors import InputError
 from ..files import Table
 from ..require import Bounds, require_known, require_number
 
@@ -20,6 +21,8 @@ UNITS: dict[str, str | None] = {
     "friction": "-",
     "tensile_fracture_energy": "N/m",
     "shear_fracture_energy": "N/m",
+    "residual_friction": "-",
+    "slip_length": "m",
     "softening": None,
     "plane": None,
     "weibull": "-",
@@ -28,6 +31,8 @@ CHOICES = {"softening": ("bilinear", "brittle"), "plane": ("stress", "strain")}
 ELASTIC_KEYS = ("young", "poisson", "normal_stiffness", "shear_ratio")
 COMMON_KEYS = tuple(key for key in UNITS if key not in ELASTIC_KEYS)
 ENERGY_KEYS = ("tensile_fracture_energy", "shear_fracture_energy")
+#: Keys of the friction after a crack, which are given together or not at all.
+RESIDUAL_KEYS = ("residual_friction", "slip_length")
 #: Keys that the rock has, and no mineral of its own.
 ROCK_KEYS = ("plane", "weibull")
 #: Elastic set that each model uses. YADE's own models bond the same discs as the rigid model.
@@ -47,7 +52,7 @@ _UNUSED: dict[str, tuple[str, ...]] = {
     "flexible": (),
     "rigid": _OF_TRIANGLES,
     **dict.fromkeys(("inner", "inner-un"), ("plane",)),
-    **dict.fromkeys(("jcfpm", "cohfrict"), (*_OF_TRIANGLES, *ENERGY_KEYS, "softening")),
+    **dict.fromkeys(("jcfpm", "cohfrict"), (*_OF_TRIANGLES, *ENERGY_KEYS, *RESIDUAL_KEYS, "softening")),
 }
 
 
@@ -57,6 +62,8 @@ def _around(magnitude: float) -> Bounds:
 
 #: Range of energies [N/m]; those of brittle softening follow from squares.
 _ENERGY = Bounds(above=0.0, at_least=1e-40, at_most=1e40)
+#: Range of the slip over which friction falls [m].
+_SLIP = Bounds(above=0.0, at_least=1e-15, at_most=1e6)
 #: Range of Weibull's modulus: below 1 the factors have no density at 0, above 1e6 no scatter.
 MODULUS = Bounds(at_least=1.0, at_most=1e6)
 #: Ranges of the keys: 1e-12 to 1e12 times a rock's, within which all sums are numbers.
@@ -71,6 +78,8 @@ _BOUNDS = {
     "friction": Bounds(at_least=0.0, at_most=1e12),
     "tensile_fracture_energy": _ENERGY,
     "shear_fracture_energy": _ENERGY,
+    "residual_friction": Bounds(at_least=0.0, at_most=1e12),
+    "slip_length": _SLIP,
     "weibull": MODULUS,
 }
 
@@ -85,6 +94,8 @@ JOINT_UNITS: dict[str, str | None] = {
     "shear_fracture_energy": "N/m",
     "dilation_angle": "degrees",
     "dilation_slip": "m",
+    "residual_friction": "",
+    "slip_length": "m",
     "open": None,
 }
 _STRENGTH = Bounds(at_least=0.0, at_most=1e19)
@@ -98,6 +109,8 @@ JOINT_BOUNDS = {
     "shear_fracture_energy": _ENERGY,
     "dilation_angle": Bounds(at_least=0.0, below=90.0),
     "dilation_slip": Bounds(at_least=0.0, at_most=1e6),
+    "residual_friction": _BOUNDS["residual_friction"],
+    "slip_length": _SLIP,
 }
 
 
@@ -110,15 +123,43 @@ def checked(key: str, value: object, where: str = "") -> float | str:
     return require_number(f"material {where}{key}", value, _BOUNDS[key], unit)
 
 
+def check_residual(where: str, values: Mapping[str, object]) -> None:
+    """Reject a friction that rises with slip, or one of the two keys without the other.
+
+    Args:
+        where: Beginning of the message.
+        values: Values by key, with `friction` and both keys of the residual friction.
+
+    Raises:
+        InputError: naming the key.
+    """
+    given = [key for key in RESIDUAL_KEYS if values.get(key) is not None]
+    if not given:
+        return
+    if len(given) == 1:
+        (missing,) = {*RESIDUAL_KEYS} - {*given}
+        raise InputError(
+            f"{where} {missing} is missing; {given[0]} needs it, give both keys or none"
+        )
+    residual, friction = values["residual_friction"], values["friction"]
+    assert isinstance(residual, float)
+    assert isinstance(friction, float)
+    if residual > friction:
+        raise InputError(
+            f"{where} residual_friction = {residual!r}, must be <= the friction {friction!r}; "
+            "lower it, or raise the friction"
+        )
+
+
 def scaled(values: Mapping[str, object], ratio: float) -> Table:
     """Return values by key for grains whose diameters are multiplied by a ratio [-].
 
     If all lengths of a specimen are multiplied by s, it has the same stresses at the same strains
     under two conditions: stiffnesses of contacts per area are divided by s, and fracture energies
-    are multiplied by s. Openings and slips are then multiplied by s. Other values do not change.
+    and slip lengths are multiplied by s. Openings and slips are then multiplied by s. Other values do not change.
     """
     found: Table = dict(values)
-    for key in ENERGY_KEYS:
+    for key in (*ENERGY_KEYS, "slip_length"):
         if isinstance(found.get(key), int | float):
             found[key] *= ratio
     if isinstance(found.get("normal_stiffness"), int | float):

@@ -11,7 +11,7 @@ import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypedDict
+from typing import NotRequired, TypedDict
 
 from ..errors import InputError
 from ..files import Table, load_toml
@@ -34,7 +34,9 @@ from .keys import (
     ELASTIC_KEYS,
     ELASTIC_SET,
     ENERGY_KEYS,
+    RESIDUAL_KEYS,
     UNITS,
+    check_residual,
     checked,
     elastic_set_name,
     is_used,
@@ -44,7 +46,7 @@ from .made_for import MadeFor
 from .mineral import Mineral
 
 #: Keys that a material may leave out.
-_OPTIONAL = (*ENERGY_KEYS, "weibull")
+_OPTIONAL = (*ENERGY_KEYS, *RESIDUAL_KEYS, "weibull")
 #: A fracture energy this close to the elastic energy [relative] counts as equal: brittle.
 ENERGY_TOLERANCE = 1e-12
 
@@ -69,6 +71,8 @@ class Law(TypedDict):
     friction: float  #: [-]
     tensile_fracture_energy: float  #: [N/m]
     shear_fracture_energy: float  #: [N/m]
+    residual_friction: NotRequired[float]  #: [-]; only if the material has it
+    slip_length: NotRequired[float]  #: [m]; only if the material has it
     softening: str
     plane: str
 
@@ -117,6 +121,8 @@ class Material(Shown):
     friction: float  #: mu, tangent of the friction angle [-]
     tensile_fracture_energy: float | None = None  #: G_fn [N/m], area under the whole curve
     shear_fracture_energy: float | None = None  #: G_fs [N/m]
+    residual_friction: float | None = None  #: mu_r of a cracked point; None: mu does not fall [-]
+    slip_length: float | None = None  #: slip since the crack at which mu_r is reached [m]
     softening: str = "bilinear"  #: bilinear or brittle
     density: float = 2650.0  #: [kg/m3], used by dynamic runs and by gravity
     plane: str = "stress"  #: plane stress or plane strain of the triangles
@@ -141,6 +147,7 @@ class Material(Shown):
             for key in ENERGY_KEYS:
                 if getattr(self, key) is None:
                     raise InputError(f"material {key} is missing; bilinear softening needs it")
+        check_residual("material", vars(self))
         object.__setattr__(self, "minerals", mineral.checked(self.minerals))
         object.__setattr__(self, "joints", joint.checked(self.joints))
         names = [kind.name for kind in self.minerals]
@@ -239,7 +246,7 @@ class Material(Shown):
 
         The ratio r is the mean diameter of ``made_for``, divided by the new mean diameter. The
         normal stiffness of all elastic sets, minerals and interfaces is multiplied by r, and their
-        fracture energies are divided by r. Strengths, elastic constants of the grains, density and
+        fracture energies and slip lengths are divided by r. Strengths, elastic constants of the grains, density and
         laws of joints do not change. If the lengths of a specimen change by the same factor as its
         grains, its elastic constants do not change, and neither do its stresses at the same
         strains. With real masses, times are proportional to the lengths. With gravity the stresses
@@ -271,14 +278,14 @@ class Material(Shown):
         elastic = {
             name: ElasticSet(**scaled(vars(chosen), ratio)) for name, chosen in self.elastic.items()
         }
-        energies = {key: getattr(self, key) for key in ENERGY_KEYS}
+        lengths = {key: getattr(self, key) for key in (*ENERGY_KEYS, "slip_length")}
         return dataclasses.replace(
             self,
             elastic=elastic,
             minerals=tuple(one.scaled(ratio) for one in self.minerals),
             interfaces=tuple(one.scaled(ratio) for one in self.interfaces),
             made_for=dataclasses.replace(self.made_for, mean_diameter=diameter),
-            **scaled(energies, ratio),
+            **scaled(lengths, ratio),
         )
 
     def law(self, model: str = "flexible") -> Law:
@@ -300,7 +307,7 @@ class Material(Shown):
                     "need it"
                 )
         tensile, shear = self.elastic_energies(model)
-        return Law(
+        law = Law(
             young=chosen.young,
             poisson=chosen.poisson,
             normal_stiffness=chosen.normal_stiffness,
@@ -314,6 +321,10 @@ class Material(Shown):
             softening=self.softening,
             plane=self.plane,
         )
+        if self.residual_friction is not None and self.slip_length is not None:
+            law["residual_friction"] = self.residual_friction
+            law["slip_length"] = self.slip_length
+        return law
 
     def joint_laws(self, model: str = "flexible") -> list[Table]:
         """Return the effective parameters of all joints for `model`, each with its name.

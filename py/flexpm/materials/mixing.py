@@ -6,7 +6,8 @@ Deviation D27. Half of a contact belongs to each grain: stiffnesses act in serie
 half yields first.
 
     K_n = 2 / (1 / K_nA + 1 / K_nB),  eta K_n in the same way,
-    sigma_t, c, mu, G_fn, G_fs: the smaller of the two; brittle if either mineral is brittle.
+    sigma_t, c, mu, G_fn, G_fs: the smaller of the two; brittle if either mineral is brittle;
+    mu_r: the smaller of the two, which is mu of a mineral without mu_r; slip length: the smaller.
 
 An interface of the material takes precedence for the contacts of its pair.
 """
@@ -262,7 +263,20 @@ def _pair(first: Material, second: Material, model: str) -> Material:
         softening="brittle" if brittle else "bilinear",
         **weaker,
         **energies,
+        **_residual(first, second),
     )
+
+
+def _residual(first: Material, second: Material) -> Table:
+    """Residual friction and slip length of the contact between grains of two materials."""
+    lengths = [one.slip_length for one in (first, second) if one.slip_length is not None]
+    if not lengths:
+        return {}
+    values = (
+        one.friction if one.residual_friction is None else one.residual_friction
+        for one in (first, second)
+    )
+    return {"residual_friction": min(values), "slip_length": min(lengths)}
 
 
 def _with_interface(pair: Material, own: Interface | None, model: str) -> Material:

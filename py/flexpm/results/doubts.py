@@ -13,6 +13,7 @@ from ..kinds.registry import kind_of
 from ..kinds.test_kind import Stage
 from ..materials.grain_size import modulus_ratio
 from ..materials.interface import ENERGY_OF
+from ..materials.keys import is_used
 from ..materials.made_for import MadeFor, dimension_of
 from ..materials.material import default_name
 from ..materials.mixing import long_softening
@@ -31,6 +32,8 @@ _USUAL: dict[str, tuple[float, float, str]] = {
     "second_confinement": (1e3, 1e11, "Pa; 4 MPa is 4e6"),
     "normal_stress": (1e3, 1e11, "Pa; 1 MPa is 1e6"),
 }
+#: Inputs that are pressures on the specimen.
+_PRESSURES = ("confinement", "second_confinement", "normal_stress")
 #: Sizes of specimens of all shapes.
 _SIZES = ("width", "depth", "height", "diameter", "thickness")
 #: Range of the sizes of specimens and of the diameters of grains without a warning [m].
@@ -123,6 +126,7 @@ def of_inputs(inputs: Table) -> list[str]:
     tables += [(f"joint {joint['name']} ", joint) for joint in material.get("joints", ())]
     lines = [line for where, values in tables for line in _of_values(where, values)]
     lines += of_softening(material)
+    lines += of_slip_lengths(inputs)
     sizes = {name: specimen[name] for name in _SIZES if specimen.get(name) is not None}
     packed = specimen.get("diameters") or ()
     odd = of_lengths(sizes, packed)
@@ -151,6 +155,35 @@ def of_softening(material: Table) -> list[str]:
         f"of the ratio of strengths, as factor.{one.strength} of an interface does"
         for one in long_softening(material, LARGEST_SOFTENING_RATIO)
     ]
+
+
+def of_slip_lengths(inputs: Table) -> list[str]:
+    """Warn of friction that falls faster with slip than the contact unloads: it snaps back.
+
+    Args:
+        inputs: Inputs as in result.json.
+    """
+    material = inputs["material"]
+    pressure = max(abs(inputs.get(name) or 0.0) for name in _PRESSURES)
+    laws = [("", material)]
+    laws += [(f"{kind['name']} ", kind) for kind in material.get("minerals", ())]
+    laws += [(f"interface {'/'.join(one['pair'])} ", one) for one in material.get("interfaces", ())]
+    laws += [(f"joint {joint['name']} ", joint) for joint in material.get("joints", ())]
+    lines = []
+    for where, law in laws:
+        length = law.get("slip_length")
+        if length is None or not is_used("slip_length", inputs["model"]):
+            continue
+        stiffness = law.get("shear_stiffness") or law["shear_ratio"] * law["normal_stiffness"]
+        least = (law["friction"] - law["residual_friction"]) * pressure / stiffness
+        if length < least:
+            lines.append(
+                f"{where}slip_length = {length:.3g} m, is below (friction - residual_friction) "
+                f"pressure / shear stiffness = {least:.3g} m at {1e-6 * pressure:.4g} MPa: "
+                "friction falls at once, and the difference becomes waves; give a larger "
+                "slip_length"
+            )
+    return lines
 
 
 def of_weak_joints(inputs: Table) -> list[str]:

@@ -24,6 +24,7 @@ TEXTS = st.text(st.characters(blacklist_categories=["Cs"], blacklist_characters=
 KEYS = st.sampled_from(
     """young cohesion friction softening normal_stiffness quartz.x joint.j.friction interface.a.b
     joint.fault.open joint.bed-1.open quartz.cohesion
+    residual_friction slip_length joint.j.residual_friction interface.a/b.slip_length
     interface.quartz/biotite.cohesion interface.a/b.factor.friction""".split()
 )
 VALUED = """--rate --max-strain --stop-ratio --confinement --threads --seed --porosity

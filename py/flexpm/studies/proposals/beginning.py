@@ -122,10 +122,14 @@ def similar(material: Material, model: str, k: float, e: float) -> dict[str, flo
         "cohesion": material.cohesion * k,
         "friction": material.friction,
         **{key: (getattr(material, key) or 0.0) * k * k / e for key in ENERGY_KEYS},
+        "slip_length": (material.slip_length or 0.0) * k / e,
         "weibull": material.weibull,
         **{key: one * e if one and key in _SCALED else one for key, one in elastic.items()},
     }
-    return {key: one for key, one in values.items() if one}
+    found = {key: one for key, one in values.items() if one}
+    if material.residual_friction is not None:
+        found["residual_friction"] = material.residual_friction
+    return found
 
 
 def expected(measure: str, value: float, factors: tuple[float, float]) -> float:
