@@ -154,35 +154,27 @@ def test_friction_that_falls_faster_than_its_contact_unloads_is_told(pressure):
 
 
 @pytest.mark.parametrize("model", ["flexible", "rigid"])
-@pytest.mark.parametrize("solid", [False, True], ids=["2D", "3D"])
-def test_a_joint_loses_friction_as_it_slides(solid, model):
-    """Against the closed form within 1 %, and the books close."""
-    if solid:
-        whole = Specimen.box(0.016, 0.009, 2.0 * MIDDLE, seed=1)
-        plane = {"point": (0.0, 0.0, MIDDLE), "dip": 0, "dip_direction": 0}
-        cut = whole.with_joints({"plane": plane})
-    else:
-        cut = Specimen.rectangle(0.024, 2.0 * MIDDLE, thickness=0.01, seed=1).with_joints(
-            {"plane": [(0.0, MIDDLE), (0.024, MIDDLE)]}
-        )
+def test_a_joint_loses_friction_as_it_slides(model):
+    cut = Specimen.rectangle(0.024, 2.0 * MIDDLE, thickness=0.01, seed=1).with_joints(
+        {"plane": [(0.0, MIDDLE), (0.024, MIDDLE)]}
+    )
     result = flexpm.run(
         *("shear", cut, with_joint(**FALLS), model),
         normal_stress=PRESSURE,
-        max_displacement=1.5 * LENGTH,
+        max_displacement=1.2 * LENGTH,
         report=False,
     )
-    stress = result.curve["shear_stress"] / PRESSURE
-    assert stress.min() >= 0.0
-    assert stress[-1] == pytest.approx(RESIDUAL, rel=1e-3)
-    peak = int(stress.argmax())
-    assert 0.97 * FRICTION < stress[peak] < 1.001 * FRICTION
-    # grains deform elastically: the plastic slip is the displacement beyond that
-    ways = result.curve["shear_displacement"]
-    elastic = ways[peak] / stress[peak] * stress
-    slid = (ways - elastic)[peak:]
-    expected = RESIDUAL + (FRICTION - RESIDUAL) * np.maximum(1.0 - slid / LENGTH, 0.0)
-    np.testing.assert_allclose(stress[peak:], expected, rtol=0.03)
-    assert result.energy_error < 1e-3
+    ways, friction = result.curve["shear_displacement"], result.curve["shear_stress"] / PRESSURE
+    peak = int(friction.argmax())
+    # within 1 %, since the joint begins to slide at its ends
+    assert friction[peak] == pytest.approx(FRICTION, rel=0.01)
+    # of the displacement, deformation takes a part in proportion to the stress
+    slip = ways - friction / friction[peak] * ways[peak]
+    falls = (slip > 0.1 * LENGTH) & (slip < 0.9 * LENGTH)
+    slope = np.polyfit(slip[falls], friction[falls], 1)[0]
+    assert slope == pytest.approx(-(FRICTION - RESIDUAL) / LENGTH, rel=0.01)
+    assert friction[-1] == pytest.approx(RESIDUAL, rel=1e-3)
+    assert result.energy_error < 1e-4
 
 
 CRUSHED = {
@@ -207,10 +199,11 @@ def test_crushed_rock_goes_on_from_a_saved_scene_to_the_same_bits(tmp_path, monk
     whole = flexpm.run(test, specimen, **run)
     equal = plain.with_set(residual_friction=plain.friction, slip_length=1e-5)
     assert same(whole, flexpm.run(test, specimen, material=equal, **asked))
-    weaker = {"material": plain.with_set(residual_friction=0.1, slip_length=1e-6), **asked}
+    weaker = {"material": plain.with_set(residual_friction=0.1, slip_length=1e-4), **asked}
     weakened = flexpm.run(test, specimen, **weaker)
     assert not same(whole, weakened)
-    assert weakened.energy_error < 1e-3
+    # at four times the rate
+    assert weakened.energy_error < 2e-3
     stop = weakened.cracks[len(weakened.cracks) // 2].step + 100
     again = taken_up(monkeypatch, tmp_path / "run", stop, test, specimen, **weaker)
     assert same(weakened, again)
@@ -218,5 +211,6 @@ def test_crushed_rock_goes_on_from_a_saved_scene_to_the_same_bits(tmp_path, monk
 
 def test_the_keys_are_inputs_of_a_run():
     specimen = Specimen.rectangle(0.01, 0.02, 0.08, seed=1)
-    result = flexpm.run("elastic", specimen, rock())
+    result = flexpm.run("uniaxial", specimen, rock(), max_strain=1e-5, report=False)
     assert {key: result.material[key] for key in FALLS} == FALLS
+    assert result.inputs["material"]["slip_length"] == LENGTH

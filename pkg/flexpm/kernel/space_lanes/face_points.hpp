@@ -136,7 +136,7 @@ FLEXPM_INLINE void advance_points(
         double* state = states + p * FaceRow::count * lanes;
         find_jump(b, m, p, jump);
         find_places(m, jump, places);
-        if (!((!Extended || !b.dilating)
+        if (!(!Extended
                 && hold_lanes<true, false>(b.law, places, state, traction))
             && !hold_lanes<false, Extended>(b.law, places, state, traction))
             advance_lanes<Extended>(b.law, places, state, traction, p, cracks);
