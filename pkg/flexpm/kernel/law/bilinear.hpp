@@ -6,7 +6,7 @@
 /// Deviation D2: damage follows the largest opening and the plastic slip so far; no healing.
 /// Deviation D3: unloading in tension goes along the secant.
 /// Deviation D43: plastic slip opens a joint that dilates, and slip back closes it.
-/// Deviation D108: the friction of a cracked point falls with its plastic slip since the crack.
+/// Deviation D109: the friction of a cracked point falls with its plastic slip since the crack.
 #pragma once
 
 #include <flexpm/kernel/core/compiler.hpp>
