@@ -140,7 +140,7 @@ class Joint:
             )
 
     def _check_residual(self, law: Mapping[str, object]) -> None:
-        """Reject a residual friction that rises, or dissipates less energy than dilation supplies."""
+        """Reject a residual friction above the friction or below the dilation."""
         label = f"material [joint.{self.name}]"
         check_residual(label, law)
         residual = law["residual_friction"]

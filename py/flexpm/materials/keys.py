@@ -46,13 +46,15 @@ ELASTIC_SET = {
 }
 #: Keys of the triangles alone, which rigid grains do not have.
 _OF_TRIANGLES = ("young", "poisson", "plane")
+#: Keys of softening, which the bonds of YADE's spheres do not have.
+_OF_SOFTENING = (*ENERGY_KEYS, *RESIDUAL_KEYS, "softening")
 #: Keys that a model does not use. The stiffness of inner particles is fitted to a rock's E and nu;
 #: the bonds of YADE's spheres break without softening.
 _UNUSED: dict[str, tuple[str, ...]] = {
     "flexible": (),
     "rigid": _OF_TRIANGLES,
     **dict.fromkeys(("inner", "inner-un"), ("plane",)),
-    **dict.fromkeys(("jcfpm", "cohfrict"), (*_OF_TRIANGLES, *ENERGY_KEYS, *RESIDUAL_KEYS, "softening")),
+    **dict.fromkeys(("jcfpm", "cohfrict"), (*_OF_TRIANGLES, *_OF_SOFTENING)),
 }
 
 
@@ -156,7 +158,8 @@ def scaled(values: Mapping[str, object], ratio: float) -> Table:
 
     If all lengths of a specimen are multiplied by s, it has the same stresses at the same strains
     under two conditions: stiffnesses of contacts per area are divided by s, and fracture energies
-    and slip lengths are multiplied by s. Openings and slips are then multiplied by s. Other values do not change.
+    and slip lengths are multiplied by s. Openings and slips are then multiplied by s. Other values
+    do not change.
     """
     found: Table = dict(values)
     for key in (*ENERGY_KEYS, "slip_length"):

@@ -246,13 +246,13 @@ class Material(Shown):
 
         The ratio r is the mean diameter of ``made_for``, divided by the new mean diameter. The
         normal stiffness of all elastic sets, minerals and interfaces is multiplied by r, and their
-        fracture energies and slip lengths are divided by r. Strengths, elastic constants of the grains, density and
-        laws of joints do not change. If the lengths of a specimen change by the same factor as its
-        grains, its elastic constants do not change, and neither do its stresses at the same
-        strains. With real masses, times are proportional to the lengths. With gravity the stresses
-        change. If the size of the specimen does not change, its elastic constants stay the same
-        within the scatter of packings, but its strength may change, because the number of grains
-        changes.
+        fracture energies and slip lengths are divided by r. Strengths, elastic constants of the
+        grains, density and laws of joints do not change. If the lengths of a specimen change by the
+        same factor as its grains, its elastic constants do not change, and neither do its stresses
+        at the same strains. With real masses, times are proportional to the lengths. With gravity
+        the stresses change. If the size of the specimen does not change, its elastic constants stay
+        the same within the scatter of packings, but its strength may change, because the number of
+        grains changes.
 
         Args:
             mean_diameter: Mean diameter of the grains [m].

@@ -207,8 +207,9 @@ TEST_CASE("Sliding under pressure: peak, sign, shear cracks, then friction alone
     }
 }
 
-TEST_CASE("Under a constant pressure the friction of a crack falls with its plastic slip, in either "
-          "sense")
+TEST_CASE(
+    "Under a constant pressure the friction of a crack falls with its plastic slip, in either "
+    "sense")
 {
     const bool rigid = GENERATE(false, true);
     auto m = specimens::granite_contact();

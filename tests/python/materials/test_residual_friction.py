@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Friction of cracked contacts that falls with their slip: keys, laws of pairs, runs and warnings."""
+"""Friction of cracked contacts that falls with their slip: keys, laws of pairs, runs, warnings."""
 
 from __future__ import annotations
 

@@ -95,7 +95,8 @@ LawParameters make_law(const ContactMaterial& m)
     p.dilation_limit = m.dilation_slip * p.shear_stiffness;
     p.residual_friction = m.slip_length > 0.0 ? m.residual_friction : m.friction;
     if (m.slip_length > 0.0)
-        p.friction_fall = std::min((m.friction - m.residual_friction) / m.slip_length, brittle_limit);
+        p.friction_fall =
+            std::min((m.friction - m.residual_friction) / m.slip_length, brittle_limit);
     return p;
 }
 

@@ -50,7 +50,7 @@ struct LawParameters {
     double dilation_compliance = 0.0;  ///< tan psi / (eta K_n) [m/Pa]
     double dilation_limit = 0.0;       ///< eta K_n times the slip at which dilation ends [Pa]
     double residual_friction = 0.0;    ///< mu_r [-]
-    double friction_fall = 0.0;  ///< (mu_c - mu_r) / slip length [1/m], 0: friction stays
+    double friction_fall = 0.0;        ///< (mu_c - mu_r) / slip length [1/m], 0: friction stays
 
     /// Calls visit(name, member) for all members in the order of their rows.
     template <class Self, class Visitor>

@@ -58,8 +58,7 @@ template <bool Extended>
 FLEXPM_INLINE LawParameters law_at(const double* law_rows, const double* state, int l)
 {
     LawParameters law = load_rows<LawParameters>(law_rows, l);
-    if (Extended)
-        law.friction = law::friction_after(law, state[FaceRow::crack_slip * lanes + l]);
+    if (Extended) law.friction = law::friction_after(law, state[FaceRow::crack_slip * lanes + l]);
     return law;
 }
 
@@ -136,8 +135,7 @@ FLEXPM_INLINE void advance_points(
         double* state = states + p * FaceRow::count * lanes;
         find_jump(b, m, p, jump);
         find_places(m, jump, places);
-        if (!(!Extended
-                && hold_lanes<true, false>(b.law, places, state, traction))
+        if (!(!Extended && hold_lanes<true, false>(b.law, places, state, traction))
             && !hold_lanes<false, Extended>(b.law, places, state, traction))
             advance_lanes<Extended>(b.law, places, state, traction, p, cracks);
         find_force(m, b.areas + p * lanes, traction, force);

@@ -308,8 +308,7 @@ struct RigidFaces {
             s.plan.face_grains.data() + 2 * block * lanes,
             s.plan.faces.data() + SolidPlan::first_face(block),
             s.plan.face_places.data() + SolidPlan::first_place(c, block),
-            c.areas.data() + c.block_points[block], laws.rows, laws.dilating,
-            laws.weakening };
+            c.areas.data() + c.block_points[block], laws.rows, laws.dilating, laws.weakening };
     }
 
     static FaceForces forces_of(SolidState& s, int block)
