@@ -44,8 +44,8 @@ struct Tetrahedra {
 };
 
 /// Rows of a point of a face that is or was beyond its elastic branch, or shares a block with one:
-/// its slip at the last forces, its FacePointState, and its slip since the crack. A point without damage reads and writes the
-/// first ones alone.
+/// its slip at the last forces, its FacePointState, and its slip since the crack. A point without
+/// damage reads and writes the first ones alone.
 struct FaceRow {
     enum : int {
         slip_x,
