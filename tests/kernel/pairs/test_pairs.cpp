@@ -93,11 +93,15 @@ Resultant resultant(SolidState& s)
     return sum;
 }
 
-/// Grains that fly against each other's motion, so that faces part and others meet.
+/// Grains that fly against each other's motion, so that faces part and others meet. Their friction
+/// falls after cracks.
 SolidState flying(bool rigid)
 {
     const Packing p = packing(tile_grains + 20, 6);
-    SolidState s = make_solid(p.cells, p.solid, granite(FacePointRule::corners_and_inner, rigid));
+    SolidInput input = granite(FacePointRule::corners_and_inner, rigid);
+    input.contacts[0].residual_friction = 0.25 * input.contacts[0].friction;
+    input.contacts[0].slip_length = 0.1 * side;
+    SolidState s = make_solid(p.cells, p.solid, input);
     Random random(9);
     for (int g = 0; g < s.grains.count; ++g) {
         const Vector v = 100.0 * solid_samples::draw(random);
@@ -368,6 +372,8 @@ TEST_CASE(
         const SolidState whole = run(s, 1, 0, 200);
         const auto presses = [](const PairContact& pair) { return pair.presses(); };
         CHECK(std::count_if(whole.pairs.begin(), whole.pairs.end(), presses) > 20);
+        const auto slid = [](const PairContact& pair) { return pair.crack_slip > 0.0; };
+        CHECK(std::count_if(whole.pairs.begin(), whole.pairs.end(), slid) > 20);
         CHECK(same_bits::difference(whole, run(s, 2, 0, 200)) == "");
         CHECK(same_bits::difference(whole, run(s, 4, 0, 200)) == "");
         const SolidState until = run(s, 1, 0, 90);
