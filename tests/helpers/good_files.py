@@ -111,6 +111,8 @@ shear_stiffness = 5e12
 friction = 0.6
 dilation_angle = 8.0
 dilation_slip = 1e-4
+residual_friction = 0.5
+slip_length = 1e-3
 
 [joint.slot]
 open = true
