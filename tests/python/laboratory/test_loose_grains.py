@@ -8,7 +8,8 @@ import math
 import numpy as np
 import pytest
 import yade
-from hypothesis import assume, example, given, settings
+from fuzz_child import drawing
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from refusals import refusal
 
@@ -150,7 +151,7 @@ def motions_on_slope(
     height=st.floats(0.006, 0.014),
     margin=st.sampled_from([-1.0, 1.0, 4.0]),
 )
-@settings(max_examples=12, deadline=None, derandomize=True)
+@drawing(12, by_night=10)
 @example(friction=0.4, shape=0.7, height=0.015, margin=1.0)
 @example(friction=1.5, shape=0.7, height=0.015, margin=1.0)
 def test_blocks_on_slopes_rest_slide_or_topple_within_a_degree(friction, shape, height, margin):
