@@ -153,6 +153,10 @@ class Polyhedra:
     @property
     def joint_cuts(self) -> FloatArray: ...
     @property
+    def hole_cuts(self) -> FloatArray: ...
+    @property
+    def first_hole(self) -> int: ...
+    @property
     def sphere_of_cell(self) -> IntArray: ...
     @property
     def hidden_spheres(self) -> IntArray: ...
@@ -291,6 +295,7 @@ def polyhedra(
     allow_hidden: bool,
     notches: list[tuple[float, float, bool]] = ...,
     joints: list[tuple[tuple[float, float, float], float, FloatArray]] = ...,
+    holes: list[list[tuple[tuple[float, float, float], float, FloatArray]]] = ...,
 ) -> Polyhedra: ...
 def area_within(
     normal: tuple[float, float, float], offset: float, corners: FloatArray, solid: Solid
@@ -303,6 +308,7 @@ def own_polyhedra(
     short_edge: float,
     pores: IntArray,
     joints: list[tuple[tuple[float, float, float], float, FloatArray]] = ...,
+    holes: list[list[tuple[tuple[float, float, float], float, FloatArray]]] = ...,
 ) -> Polyhedra: ...
 def weighted_cells(points: FloatArray, weights: FloatArray, solid: Solid) -> WeightedCells: ...
 def weights_of_volumes(

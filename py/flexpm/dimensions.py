@@ -71,13 +71,10 @@ FEATURES = {
         "weibull, are available",
     ),
     "holes": Feature(
-        "holes in 2D shapes",
-        2,
-        ("holes of Specimen.rectangle and other shapes",),
-        "leave them out, or take Specimen.polygon",
-    ),
-    "hole_pressure": Feature(
-        "pressures in holes", 2, ("hole of PartRig.fluid",), "leave it out and give a side"
+        "holes cut into a specimen",
+        3,
+        ("with_holes of a 3D specimen",),
+        "give holes to Specimen.polygon, or take a 3D specimen",
     ),
     "points": Feature(
         "other numbers of contact points",

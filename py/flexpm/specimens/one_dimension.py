@@ -52,3 +52,4 @@ class SolidOnly:
 
     joints_from_dfnworks = _missing("joints_from_dfnworks", "dfnworks")
     without_grains = _missing("without_grains", "removed_grains")
+    with_holes = _missing("with_holes", "holes")

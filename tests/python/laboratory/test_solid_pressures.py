@@ -63,10 +63,11 @@ def test_sides_that_a_fluid_cannot_press_are_refused(core, box):
     rig = rig_of(core)
     refused = (
         ({"side": 3}, "fluid: side = 3, must be one of 0, 1, 2, the sides of a cylinder"),
-        ({}, "fluid: side = None, must be given"),
+        ({}, "fluid: give exactly one of side and hole"),
         ({"side": []}, "fluid: side = none, must be >= 1"),
         ({"side": 1.5}, "fluid: side = 1.5, must be a whole number"),
-        ({"side": 1, "hole": 0}, "fluid: hole = 0, must not be given for a 3D specimen"),
+        ({"side": 1, "hole": 0}, "fluid: give exactly one of side and hole"),
+        ({"hole": 0}, "fluid: hole = 0, the specimen has none; give a side"),
     )
     for sides, told in refused:
         refusal(told, rig.fluid, 1e6, **sides)
@@ -74,6 +75,60 @@ def test_sides_that_a_fluid_cannot_press_are_refused(core, box):
     refusal(
         "side = 6, must be one of 0, 1, 2, 3, 4, 5", lambda: rig_of(box).fluid(1e6, side=[1, 6])
     )
+
+
+@MODELS
+def test_a_fluid_in_a_hole_presses_on_its_wall(box, model):
+    """A shaft from the top pushes down with the area of its mouth; all sides make a mean stress."""
+    top, pressure = 1.5 * SIZE, 5e6
+    shaft = {"point": (0.5 * SIZE, 0.5 * SIZE, top), "axis": (0, 0, -1), "diameter": 0.5 * SIZE}
+    cut = box.with_holes([{**shaft, "length": 0.5 * SIZE}])
+    rig = rig_of(cut, model)
+    base = rig.platen(0)
+    refusal("fluid: hole = 1, must be <= 0", rig.fluid, pressure, hole=1)
+    rig.fluid(pressure, hole=0)
+    mouth = SIZE**2 - area_on(cut, 2)
+    assert mouth == pytest.approx(0.0625 * np.pi * SIZE**2, rel=0.05)
+    assert base.force[2] == pytest.approx(pressure * mouth, rel=3e-3)
+    rig.fluid(pressure, side=[1, 2, 3, 4, 5])
+    stress = np.array(rig.built.solver.balance()["mean_stress"]) / pressure
+    assert stress == pytest.approx([-1.0, -1.0, -1.0, 0.0, 0.0, 0.0], abs=2e-3)
+    assert base.force[2] == pytest.approx(pressure * SIZE**2, rel=2e-3)
+
+
+@pytest.mark.slow
+def test_a_thick_ring_under_a_fluid_grows_as_lame_says():
+    """Plane stress: the ends are free, and the bottom is held along the axis alone."""
+    inner, outer, pressure = 0.004, 0.012, 2e6
+    ring = flexpm.Specimen.cylinder(2.0 * outer, 0.008).with_holes(
+        [{"point": (0, 0, 0), "axis": (0, 0, 1), "diameter": 2.0 * inner}]
+    )
+    rock = flexpm.elastic(flexpm.Specimen.cylinder(SIZE, 2.0 * SIZE), MATERIAL, "flexible")
+    young, poisson = rock["youngs_modulus"], rock["poissons_ratio"]
+    rig = rig_of(ring)
+    rig.hold(where=lambda _x, _y, z: z < 1e-9, axes="z")
+    rig.fluid(pressure, hole=0)
+    state = rig.built.snapshot()
+    places, ways = state.reference[:, :2], (state.positions - state.reference)[:, :2]
+    radius = np.hypot(*places.T)
+    grows = np.einsum("ij,ij->i", places, ways) / radius
+    for share in (1.0, 1.5, 2.25, 3.0):
+        near = np.abs(radius / inner - share) < 0.03 * share
+        mean = radius[near].mean()
+        told = (1.0 - poisson) * mean + (1.0 + poisson) * outer**2 / mean
+        lame = pressure * inner**2 / (young * (outer**2 - inner**2)) * told
+        assert grows[near].mean() == pytest.approx(lame, rel=0.05)
+
+
+def area_on(specimen, side):
+    """Area of the faces on a flat side of a box [m2]."""
+    cells, total = specimen.cells, 0.0
+    for face in np.flatnonzero(cells.faces[:, 2] == side):
+        first, end = cells.face_offsets[face : face + 2]
+        corners = cells.vertices[cells.face_vertices[first:end]]
+        arms = corners - corners[0]
+        total += 0.5 * np.linalg.norm(np.cross(arms[1:-1], arms[2:]).sum(axis=0))
+    return total
 
 
 @MODELS

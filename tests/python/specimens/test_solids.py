@@ -66,8 +66,8 @@ def test_a_seed_gives_the_same_bits(box):
         ("solid_half_disc", (0.03, 0.015)),
     ],
 )
-def test_holes_are_of_the_plane(name, sizes):
-    with pytest.raises(InputError, match=r"^Specimen[^\n]*holes = [^\n]* available in 2D[^\n]*$"):
+def test_holes_are_cut_into_a_specimen(name, sizes):
+    with pytest.raises(InputError, match=r"^Specimen[^\n]*holes = [^\n]* use with_holes[^\n]*$"):
         getattr(Specimen, name)(*sizes, holes=[[(0.004, 0.004), (0.006, 0.004), (0.005, 0.006)]])
 
 

@@ -61,7 +61,8 @@ SidePressures side_pressures(const SolidState& s)
     SidePressures found;
     bool any = false;
     for (std::size_t t = 0; t < s.surface.pressure.size(); ++t) {
-        if (is_end(static_cast<SolidSide>(s.surface.side[t]))) continue;
+        const int side = s.surface.side[t];
+        if (is_end(static_cast<SolidSide>(side)) || is_of_hole(side)) continue;
         const double pressure = s.surface.pressure[t];
         found.least = any ? std::min(found.least, pressure) : pressure;
         found.largest = any ? std::max(found.largest, pressure) : pressure;

@@ -137,7 +137,8 @@ double lateral_extension(const SolidState& s, const Array<double>& moved)
     Across along_x, along_y;
     const Waist waist = waist_of(s);
     for (int t = 0; t < triangles(s); ++t) {
-        if (is_end(static_cast<SolidSide>(s.surface.side[t]))) continue;
+        const int side = s.surface.side[t];
+        if (is_end(static_cast<SolidSide>(side)) || is_of_hole(side)) continue;
         const Piece piece = piece_at(s, t, waist);
         if (piece.share == 0.0) continue;
         const Vector area = piece.share * area_vector(s, t);

@@ -34,7 +34,8 @@ struct CellComplex {
     std::vector<CellFace> faces;
     int flanks = std::numeric_limits<int>::max();  ///< walls from this one on are of notches
     int first_joint = 0;                           ///< wall that is the plane of joint 0
-    std::vector<WallPlane> planes = {};            ///< of each wall, of cells with joints
+    std::vector<WallPlane> planes = {};            ///< of each wall, of cells with joints or holes
+    bool has_holes = false;
 };
 
 /// Whether each of the walls `some` is one of `all`; both in order.

@@ -284,6 +284,16 @@ std::vector<PlanePoint> corners_and_inner(const PlaneFace& face)
 
 }  // namespace
 
+bool has_points(const std::vector<Vector>& corners)
+{
+    try {
+        face_points(corners, FacePointRule::corners_and_inner);
+    } catch (const std::invalid_argument&) {
+        return false;
+    }
+    return true;
+}
+
 FacePoints face_points(const std::vector<Vector>& corners, FacePointRule rule)
 {
     const PlaneFace face = plane_face(corners);

@@ -43,4 +43,7 @@ struct FacePoints {
 /// @throws std::invalid_argument  for fewer than three corners, or no area
 FacePoints face_points(const std::vector<Vector>& corners, FacePointRule rule);
 
+/// Whether a polygon has space for its corners' points and an inner one, or equal ones instead.
+bool has_points(const std::vector<Vector>& corners);
+
 }  // namespace flexpm

@@ -2,6 +2,7 @@
 /// @file  Checks of joints, and the limits of pieces.
 #include <flexpm/kernel/space/joint_planes.hpp>
 
+#include <flexpm/kernel/space/hole_cuts.hpp>
 #include <flexpm/kernel/space/polyhedra.hpp>
 
 #include <algorithm>
@@ -24,9 +25,8 @@ constexpr double round_off = 1e-9;
 std::string named(std::size_t joint) { return "joint plane " + std::to_string(joint); }
 
 /// Check a joint, and make its corners counter-clockwise about its normal.
-JointPlane checked(JointPlane joint, std::size_t number)
+JointPlane checked(JointPlane joint, const std::string& name)
 {
-    const std::string name = named(number);
     if (!is_finite(joint.normal) || !(std::fabs(norm(joint.normal) - 1.0) <= round_off))
         refuse(name + ": normal", place(joint.normal), "must have the length 1; correct it");
     check_finite(name + ": offset", joint.offset, "m");
@@ -81,11 +81,11 @@ std::vector<Vector> square_across(const JointPlane& joint, const Solid& solid)
     return { on - u - v, on + u - v, on + u + v, on - u + v };
 }
 
-/// Note the planes of all walls: those of the solid, of notches and of joints.
+/// Note the planes of all walls: those of the solid, of notches, of joints and of holes.
 void set_planes(CellComplex& complex, const Solid& solid, const std::vector<JointPlane>& joints,
-    const std::vector<NotchPlane>& notches)
+    const std::vector<NotchPlane>& notches, const std::vector<Hole>& holes)
 {
-    if (joints.empty()) return;
+    if (joints.empty() && holes.empty()) return;
     for (const Wall& wall : solid.walls)
         complex.planes.push_back({ wall.normal, wall.offset });
     for (const NotchPlane& notch : notches)
@@ -93,6 +93,9 @@ void set_planes(CellComplex& complex, const Solid& solid, const std::vector<Join
     complex.first_joint = static_cast<int>(complex.planes.size());
     for (const JointPlane& joint : joints)
         complex.planes.push_back({ joint.normal, joint.offset });
+    for (const Hole& hole : holes)
+        for (const JointPlane& facet : hole)
+            complex.planes.push_back({ facet.normal, facet.offset });
 }
 
 }  // namespace
@@ -112,18 +115,25 @@ double area_within(const JointPlane& joint, const Solid& solid)
         part_within(joint.corners.empty() ? square_across(joint, solid) : joint.corners, walls));
 }
 
+int first_hole_wall(const Solid& solid, const std::vector<NotchPlane>& notches)
+{
+    // pores have the wall of the first notch
+    return static_cast<int>(solid.walls.size() + std::max<std::size_t>(1, notches.size()));
+}
+
 CutCells cut_cells(CellComplex& complex, const Solid& solid, double diameter,
-    const std::vector<JointPlane>& joints, const std::vector<NotchPlane>& notches)
+    const std::vector<JointPlane>& joints, const std::vector<NotchPlane>& notches,
+    const std::vector<Hole>& holes)
 {
     const int walls = complex.flanks = static_cast<int>(solid.walls.size());
     CutCells found;
-    if (joints.empty() && notches.empty()) return found;
+    if (joints.empty() && notches.empty() && holes.empty()) return found;
     const double close = zero_edge * diameter;
     const double volume = least_volume * solid.volume / static_cast<double>(complex.cells);
-    set_planes(complex, solid, joints, notches);
+    set_planes(complex, solid, joints, notches, holes);
     CellCutter cutter(complex, { close, least_depth * diameter, volume, largest_cosine });
     for (std::size_t i = 0; i < joints.size(); ++i) {
-        const JointPlane joint = checked(joints[i], i);
+        const JointPlane joint = checked(joints[i], named(i));
         const auto number = static_cast<int>(i);
         PlaneCut cut { joint.normal, joint.offset };
         cut.region = region_between(joint.corners, joint.normal);
@@ -131,6 +141,30 @@ CutCells cut_cells(CellComplex& complex, const Solid& solid, double diameter,
         cut.joint = number;
         found.joints.push_back({ area_within(joint, solid), cutter.cut_by_plane(cut) });
     }
+    const auto first_facet = static_cast<int>(joints.size());
+    int facets = first_facet;
+    for (std::size_t i = 0; i < holes.size(); ++i) {
+        HoleCut hole { {}, {}, first_hole_wall(solid, notches) + static_cast<int>(i) };
+        for (const JointPlane& given : holes[i]) {
+            const JointPlane facet = checked(given, "facet of hole " + std::to_string(i));
+            PlaneCut cut { facet.normal, facet.offset };
+            cut.region = region_between(facet.corners, facet.normal);
+            cut.wall = complex.first_joint + facets;
+            cut.joint = facets++;
+            hole.facets.push_back(cut);
+            hole.polygons.push_back(facet.corners);
+        }
+        std::vector<HalfSpace> halves;
+        for (const PlaneCut& facet : hole.facets)
+            halves.push_back({ facet.normal, facet.offset });
+        for (PlaneCut& facet : hole.facets)
+            facet.hole = halves;
+        found.holes.push_back(cut_hole(complex, cutter, hole, close, found.gone));
+    }
+    if (!holes.empty()) finish_holes(complex, first_facet);
+    std::sort(found.gone.begin(), found.gone.end());
+    if (static_cast<int>(found.gone.size()) == complex.cells)
+        refuse("holes: cells left", 0.0, "", "must be >= 1; make the holes smaller");
     for (std::size_t i = 0; i < notches.size(); ++i) {
         const NotchPlane& notch = notches[i];
         check_finite("place of a notch", notch.x + notch.front, "m");

@@ -306,13 +306,17 @@ Polyhedra own_polyhedra(const OwnCells& own, const Solid& solid, double short_ed
     merge_close_vertices(complex, zero_edge * mean_diameter(own.spheres));
     require_centres(complex, own.spheres);
     const auto whole = static_cast<int>(own.spheres.size());
-    CutCells cut = cut_cells(complex, solid, mean_diameter(own.spheres), own.joints, {});
+    CutCells cut = cut_cells(
+        complex, solid, mean_diameter(own.spheres), own.joints, {}, own.holes);
     Polyhedra p;
     p.joint_cuts = std::move(cut.joints);
+    set_holes(p, cut, first_hole_wall(solid, {}));
     p.hidden_spheres = own.pores;
     for (std::size_t k = 0; k < cut.sources.size(); ++k)
         if (std::binary_search(own.pores.begin(), own.pores.end(), cut.sources[k]))
             p.hidden_spheres.push_back(whole + static_cast<int>(k));
+    p.hidden_spheres.insert(p.hidden_spheres.end(), cut.gone.begin(), cut.gone.end());
+    std::sort(p.hidden_spheres.begin(), p.hidden_spheres.end());
     finish_cells(p, complex, centres_of(complex, own.spheres, cut.sources), short_edge);
     for (int& cell : p.sphere_of_cell) {
         const int given = cell < whole ? cell : cut.sources[cell - whole];

@@ -22,6 +22,7 @@ struct OwnCells {
     std::vector<Sphere> spheres;  ///< per cell its centre, well inside, and the size of the cell
     std::vector<int> pores = {};  ///< cells that are taken out in the end, in order
     std::vector<JointPlane> joints = {};  ///< cut in this order; cut cells get their centroids
+    std::vector<Hole> holes = {};         ///< cut after the joints
 };
 
 /// Convex cells that fill a solid, short edges collapsed as those of spheres are. Messages count

@@ -11,14 +11,8 @@
 namespace flexpm {
 namespace {
 
-/// Six times the volume between a polygon and an origin.
-double cone(const std::vector<Vector>& polygon, Vector origin)
-{
-    double sum = 0.0;
-    for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
-        sum += triple(polygon[0] - origin, polygon[k] - origin, polygon[k + 1] - origin);
-    return sum;
-}
+/// Share of a section below which a part of it is round-off.
+constexpr double nothing = 1e-9;
 
 /// The lower number first, as numbered cells have it.
 void order(CellFace& face)
@@ -90,6 +84,14 @@ std::vector<Vector> part_within(std::vector<Vector> polygon, const std::vector<H
         polygon = std::move(kept);
     }
     return polygon;
+}
+
+double six_volumes_below(const std::vector<Vector>& polygon, Vector origin)
+{
+    double sum = 0.0;
+    for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+        sum += triple(polygon[0] - origin, polygon[k] - origin, polygon[k + 1] - origin);
+    return sum;
 }
 
 double area_of_polygon(const std::vector<Vector>& polygon)
@@ -274,8 +276,9 @@ bool CellCutter::has_section(Near& near) const
     return !near.section.empty();
 }
 
-/// Whether the plane leaves a sharp edge between itself and a face that it cuts.
-bool CellCutter::is_sharp(const Near& near) const
+/// Whether the plane leaves a sharp edge of the left or right piece, between itself and a face that
+/// it cuts.
+bool CellCutter::is_sharp(const Near& near, bool right) const
 {
     for (int f : faces_of_[near.cell]) {
         const auto& corners = complex_.faces[f].corners;
@@ -283,9 +286,31 @@ bool CellCutter::is_sharp(const Near& near) const
             std::count_if(corners.begin(), corners.end(), [&](int v) { return is_right(v); });
         if (rights == 0 || rights == static_cast<std::ptrdiff_t>(corners.size())) continue;
         const Vector area = area_vector(complex_, corners);
-        if (std::fabs(dot(area, plane_->normal)) > limits_.largest_cosine * norm(area)) return true;
+        const double sign = (complex_.faces[f].first == near.cell) == right ? 1.0 : -1.0;
+        if (sign * dot(area, plane_->normal) > limits_.largest_cosine * norm(area)) return true;
     }
     return false;
+}
+
+bool CellCutter::is_large(double depth, double volume) const
+{
+    return depth >= limits_.least_depth && volume >= limits_.least_volume;
+}
+
+/// Whether the left piece of a cell leaves with a hole.
+bool CellCutter::is_left_in_hole(const Near& near) const
+{
+    if (plane_->hole.empty()) return false;
+    const auto is_inside = [&](Vector p) {
+        return std::all_of(plane_->hole.begin(), plane_->hole.end(), [&](const HalfSpace& half) {
+            return dot(half.normal, p) - half.offset <= limits_.close;
+        });
+    };
+    for (int f : faces_of_[near.cell]) {
+        const auto part = clipped(complex_.faces[f].corners, false);
+        if (!std::all_of(part.begin(), part.end(), is_inside)) return false;
+    }
+    return true;
 }
 
 /// Decide what becomes of a cell.
@@ -309,7 +334,7 @@ void CellCutter::choose(Near& near, CutAreas& areas)
     const double part = area_of_polygon(part_within(section, plane_->region));
     const Box& box = boxes_[near.cell];
     const bool is_within =
-        closed ? all > 0.0 && part >= 0.5 * all : is_in_region(0.5 * (box.low + box.high));
+        closed ? all > 0.0 && part >= (plane_->hole.empty() ? 0.5 : nothing) * all : is_in_region(0.5 * (box.low + box.high));
     if (!is_within) {
         if (closed) areas.bridged += part;
         return;
@@ -321,11 +346,14 @@ void CellCutter::choose(Near& near, CutAreas& areas)
     for (int f : faces_of_[near.cell]) {
         const double sign = complex_.faces[f].second == near.cell ? -1.0 : 1.0;
         const auto& corners = complex_.faces[f].corners;
-        left += sign / 6.0 * cone(clipped(corners, false), origin);
-        right += sign / 6.0 * cone(clipped(corners, true), origin);
+        left += sign / 6.0 * six_volumes_below(clipped(corners, false), origin);
+        right += sign / 6.0 * six_volumes_below(clipped(corners, true), origin);
     }
-    const bool sound = closed && std::min(left_depth, right_depth) >= limits_.least_depth
-        && std::min(left, right) >= limits_.least_volume && (plane_->open || !is_sharp(near));
+    const bool left_stays =
+        is_large(left_depth, left) && (plane_->open || (closed && !is_sharp(near, false)));
+    const bool right_stays =
+        is_large(right_depth, right) && (plane_->open || (closed && !is_sharp(near, true)));
+    const bool sound = closed && right_stays && (left_stays || is_left_in_hole(near));
     near.side = sound || left >= right ? -1 : 1;
     if (!sound) return;
     near.right = near.cell;  // numbered once all are known
@@ -497,6 +525,29 @@ void CellCutter::add_sections(CutAreas& areas)
         count(left, 1.0, areas);
         touched_.push_back(static_cast<int>(complex_.faces.size()));
         complex_.faces.push_back(std::move(left));
+    }
+}
+
+void CellCutter::take_out(const std::vector<int>& cells, int wall)
+{
+    std::vector<bool> is_gone(complex_.cells);
+    for (int cell : cells)
+        is_gone[cell] = true;
+    for (int cell : cells) {
+        for (int f : faces_of_[cell]) {
+            CellFace& face = complex_.faces[f];
+            if (is_gone[face.first] && (face.second < 0 || is_gone[face.second])) {
+                face.corners.clear();
+                continue;
+            }
+            if (is_gone[face.first]) {
+                std::swap(face.first, face.second);
+                std::reverse(face.corners.begin(), face.corners.end());
+            }
+            face.second = -1;
+            face.wall = wall;
+        }
+        faces_of_[cell].clear();
     }
 }
 

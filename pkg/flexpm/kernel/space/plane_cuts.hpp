@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// @file  Convex cells cut in two along parts of planes: joints and notches of solids.
+/// @file  Convex cells cut in two along parts of planes: joints, notches and holes of solids.
 #pragma once
 
 #include <flexpm/kernel/space/cell_complex.hpp>
@@ -25,6 +25,7 @@ struct PlaneCut {
     int wall = 0;                        ///< number of the plane among the walls of vertices
     int joint = 0;                       ///< number that the faces between both sides have
     bool open = false;  ///< both sides get flanks on `wall` instead of common faces: a notch
+    std::vector<HalfSpace> hole = {};  ///< of whose facets the plane has one; the hole is on its left
 };
 
 /// Least pieces that a cut leaves.
@@ -56,8 +57,16 @@ public:
     /// smaller one. Other cells bridge the plane. Faces between both sides become faces of the
     /// joint, unless they are of an earlier one, or flanks. Pieces are cells for the next plane.
     /// Deviations D99 and D107.
+    ///
+    /// A facet of a hole cuts a cell if any part of the section is in the region. A left piece may be
+    /// below the limits if it is within the hole.
     CutAreas cut_by_plane(const PlaneCut& cut);
 
+    /// Take cells out. Faces that they share with other cells lie on `wall` from now on.
+    void take_out(const std::vector<int>& cells, int wall);
+
+    /// Faces of a cell; none of one that was taken out.
+    const std::vector<int>& faces_of(int cell) const { return faces_of_[cell]; }
     /// For each cell that has been added, a right piece, the cell of the complex as it was given
     /// that it is a part of.
     const std::vector<int>& sources() const { return sources_; }
@@ -102,7 +111,9 @@ private:
     void find_near();
     void choose(Near& near, CutAreas& areas);
     bool has_section(Near& near) const;
-    bool is_sharp(const Near& near) const;
+    bool is_sharp(const Near& near, bool right) const;
+    bool is_large(double depth, double volume) const;
+    bool is_left_in_hole(const Near& near) const;
     Vector place_of(EdgeKey edge) const;
     int crossing(EdgeKey edge);
     void put_on_plane(int vertex);
@@ -121,6 +132,9 @@ std::vector<HalfSpace> region_between(const std::vector<Vector>& corners, Vector
 
 /// Part of a convex polygon where all half-spaces hold.
 std::vector<Vector> part_within(std::vector<Vector> polygon, const std::vector<HalfSpace>& region);
+
+/// Six times the volume between a convex polygon and an origin on its left side.
+double six_volumes_below(const std::vector<Vector>& polygon, Vector origin);
 
 /// Area of a convex polygon.
 double area_of_polygon(const std::vector<Vector>& polygon);

@@ -9,6 +9,7 @@
 #include <flexpm/kernel/space/wall_cuts.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <tuple>
 
@@ -32,6 +33,15 @@ std::vector<int> find_hidden(const CellComplex& complex, const std::vector<doubl
     for (int c = 0; c < complex.cells; ++c)
         if (!has_face[c] || volumes[c] == 0.0) hidden.push_back(c);
     return hidden;
+}
+
+/// Those of some cells in order that holes have not taken out.
+std::vector<int> not_gone(const std::vector<int>& some, const std::vector<int>& gone)
+{
+    std::vector<int> left;
+    std::set_difference(
+        some.begin(), some.end(), gone.begin(), gone.end(), std::back_inserter(left));
+    return left;
 }
 
 void require_volumes(const std::vector<Sphere>& spheres, const std::vector<int>& hidden,
@@ -146,6 +156,12 @@ void add_volumes(Polyhedra& p)
 
 }  // namespace
 
+void set_holes(Polyhedra& p, const CutCells& cut, int first_wall)
+{
+    p.hole_cuts = cut.holes;
+    if (!cut.holes.empty()) p.first_hole = first_wall;
+}
+
 void require_short_edge(double short_edge)
 {
     if (std::isfinite(short_edge) && short_edge >= 0.0) return;
@@ -167,7 +183,8 @@ void finish_cells(
     p.short_edges = collapse_short_edges(complex, centres, short_edge);
     // the two sides of a notch
     for (CellFace& face : complex.faces)
-        if (face.wall >= complex.flanks) begin_alike(complex.vertices, face.corners);
+        if (face.wall >= complex.flanks && face.wall < p.first_hole)
+            begin_alike(complex.vertices, face.corners);
     take_out(complex, p.hidden_spheres);
     p.contacts = count_contacts(complex);
     number_cells(p, complex, centres);
@@ -185,7 +202,8 @@ Polyhedra polyhedra(
     merge_close_vertices(complex, zero_edge * diameter);
     std::vector<Sphere> spheres = given;
     std::vector<bool> moved(given.size());
-    CutCells cut = cut_cells(complex, solid, diameter, options.joints, options.notches);
+    CutCells cut =
+        cut_cells(complex, solid, diameter, options.joints, options.notches, options.holes);
     for (int source : cut.sources) {
         spheres.push_back(given[source]);
         moved[source] = true;  // both pieces are meshed from their centroids
@@ -194,9 +212,11 @@ Polyhedra polyhedra(
 
     Polyhedra p;
     p.joint_cuts = std::move(cut.joints);
+    set_holes(p, cut, first_hole_wall(solid, options.notches));
     const auto volumes = cell_volumes(complex);
     p.hidden_spheres = find_hidden(complex, volumes);
-    if (!options.allow_hidden) refuse_hidden(spheres, p.hidden_spheres);
+    const std::vector<int> hidden = not_gone(p.hidden_spheres, cut.gone);
+    if (!options.allow_hidden) refuse_hidden(spheres, hidden);
     const double mean_volume = solid.volume / static_cast<double>(given.size());
     require_volumes(spheres, p.hidden_spheres, volumes, zero_volume * mean_volume);
 
@@ -210,6 +230,7 @@ Polyhedra polyhedra(
         if (!moved[s]) centres[s] = spheres[s].centre;
     }
     finish_cells(p, complex, centres, options.short_edge);
+    p.hidden_spheres = hidden;
     for (int c = 0; c < p.cells(); ++c) {
         int& sphere = p.sphere_of_cell[c];
         if (moved[sphere]) p.moved_centres.push_back(c);

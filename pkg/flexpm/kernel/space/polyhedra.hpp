@@ -6,6 +6,7 @@
 #include <flexpm/kernel/space/joint_planes.hpp>
 #include <flexpm/kernel/space/solid.hpp>
 
+#include <limits>
 #include <vector>
 
 namespace flexpm {
@@ -14,7 +15,8 @@ namespace flexpm {
 struct PolyhedronFace {
     int cell_a;  ///< its corners are counter-clockwise as seen from outside this cell
     int cell_b;  ///< larger than `cell_a`, or -1 on a wall
-    int wall;    ///< of the solid; on the flanks of notch i its number of walls and i; -1: none
+    int wall;    ///< of the solid; on the flanks of notch i its number of walls and i;
+                 ///< on hole i `first_hole` and i; -1: none
 };
 
 /// Cells over shared vertices. Faces between cells come first, in order of (cell_a, cell_b).
@@ -27,6 +29,8 @@ struct Polyhedra {
     std::vector<int> face_vertices;
     std::vector<int> joints;               ///< per contact, the joint that it lies on, or -1
     std::vector<JointOutcome> joint_cuts;  ///< outcome of each joint
+    std::vector<HoleOutcome> hole_cuts;    ///< outcome of each hole
+    int first_hole = std::numeric_limits<int>::max();  ///< wall of the first hole; other holes follow
     std::vector<int> sphere_of_cell;       ///< pieces of a cell that has been cut have one
     std::vector<int> hidden_spheres;       ///< without a cell
     std::vector<int>
@@ -48,6 +52,7 @@ struct PolyhedraOptions {
     bool allow_hidden = false;  ///< drop spheres without a cell (counted) instead of refusing them
     std::vector<NotchPlane> notches = {};  ///< which do not meet in a cell
     std::vector<JointPlane> joints = {};   ///< cut in this order, before the notches
+    std::vector<Hole> holes = {};          ///< cut after the joints
 };
 
 /// Cells of the spheres inside the solid, in the order of the spheres, short edges collapsed.
@@ -60,6 +65,9 @@ Polyhedra polyhedra(
 
 /// Length over the mean diameter below which vertices are one.
 constexpr double zero_edge = 1e-9;
+
+/// Note the outcome of holes and their walls.
+void set_holes(Polyhedra& p, const CutCells& cut, int first_wall);
 
 /// Check a limit of edges.
 /// @throws std::invalid_argument  unless finite and >= 0

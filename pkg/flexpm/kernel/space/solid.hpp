@@ -18,8 +18,11 @@ enum class SolidSide {
     left = 3,
     front = 4,
     back = 5,
-    notch = 6
+    notch = 6,
+    hole = 7  ///< wall of the first hole; the next hole is one more
 };
+
+constexpr bool is_of_hole(int side) { return side >= static_cast<int>(SolidSide::hole); }
 
 constexpr bool is_end(SolidSide side)
 {

@@ -395,18 +395,26 @@ void add_contacts(Building& b)
     }
 }
 
+/// Side that a wall belongs to; the next hole is one more.
+int side_of_wall(const Building& b, int wall)
+{
+    if (wall < static_cast<int>(b.solid.walls.size()))
+        return static_cast<int>(b.solid.walls[wall].side);
+    if (wall < b.cells.first_hole) return static_cast<int>(SolidSide::notch);
+    return static_cast<int>(SolidSide::hole) + wall - b.cells.first_hole;
+}
+
 void add_surface(Building& b)
 {
     SurfaceTriangles& surface = b.state.surface;
     for (std::size_t f = 0; f < b.cells.faces.size(); ++f) {
         const PolyhedronFace& on = b.cells.faces[f];
         if (on.cell_b >= 0) continue;
-        const bool is_flank = on.wall >= static_cast<int>(b.solid.walls.size());
-        const SolidSide side = is_flank ? SolidSide::notch : b.solid.walls[on.wall].side;
+        const int side = side_of_wall(b, on.wall);
         const auto corners = b.cells.corners(static_cast<int>(f));
         for (const auto& [p, q, r] : face_triangles(b.cells.vertices, corners)) {
             surface.grain.push_back(on.cell_a);
-            surface.side.push_back(static_cast<int>(side));
+            surface.side.push_back(side);
             surface.nodes.push_back(
                 { b.node(on.cell_a, p), b.node(on.cell_a, q), b.node(on.cell_a, r) });
         }

@@ -90,6 +90,15 @@ namespace {
 		return result;
 	}
 
+	/// Holes: of each one its facets, as planes of joints.
+	std::vector<flexpm::Hole> holesOf(const py::list& holes)
+	{
+		std::vector<flexpm::Hole> result;
+		for (py::ssize_t i = 0; i < py::len(holes); ++i)
+			result.push_back(jointPlanes(py::list(holes[i])));
+		return result;
+	}
+
 	double areaWithin(py::object normal, double offset, py::object corners, const Solid& solid)
 	{
 		return flexpm::area_within(jointPlane(normal, offset, corners), solid);
@@ -105,10 +114,21 @@ namespace {
 		return copied(values, 7, Access::readOnly);
 	}
 
-	std::shared_ptr<Polyhedra> polyhedra(py::object rows, const Solid& solid, double shortEdge, bool allowHidden, py::list notches, py::list joints)
+	py::object holeCuts(const Polyhedra& cells)
+	{
+		std::vector<double> values;
+		for (const auto& cut : cells.hole_cuts)
+			for (double value : { cut.within, cut.removed })
+				values.push_back(value);
+		return copied(values, 2, Access::readOnly);
+	}
+
+	std::shared_ptr<Polyhedra>
+	polyhedra(py::object rows, const Solid& solid, double shortEdge, bool allowHidden, py::list notches, py::list joints, py::list holes)
 	{
 		flexpm::PolyhedraOptions options { shortEdge, allowHidden };
 		options.joints = jointPlanes(joints);
+		options.holes  = holesOf(holes);
 		for (py::ssize_t i = 0; i < py::len(notches); ++i)
 			options.notches.push_back({ py::extract<double>(notches[i][0]), py::extract<double>(notches[i][1]), py::extract<bool>(notches[i][2]) });
 		return std::make_shared<Polyhedra>(flexpm::polyhedra(spheres(rows), solid, options));
@@ -116,7 +136,8 @@ namespace {
 
 	/// Given cells: vertices, rows first, second of faces, their offsets among the corners, and spheres.
 	std::shared_ptr<Polyhedra>
-	ownPolyhedra(py::object vertices, py::tuple faces, py::object rows, const Solid& solid, double shortEdge, py::object pores, py::list joints)
+	ownPolyhedra(
+	        py::object vertices, py::tuple faces, py::object rows, const Solid& solid, double shortEdge, py::object pores, py::list joints, py::list holes)
 	{
 		const InputArray<int> pairs(faces[0], 2, "pairs"), offsets(faces[1], 1, "offsets"), corners(faces[2], 1, "corners");
 		if (pairs.size(1) != 2 || offsets.size(0) != pairs.size(0) + 1)
@@ -127,6 +148,7 @@ namespace {
 		own.pores.assign(taken.data(), taken.data() + taken.size(0));
 		own.vertices = places(vertices, "vertices");
 		own.joints   = jointPlanes(joints);
+		own.holes    = holesOf(holes);
 		for (std::size_t f = 0; f < pairs.size(0); ++f) {
 			const int first = offsets.data()[f], end = offsets.data()[f + 1];
 			if (first < 0 || end < first || static_cast<std::size_t>(end) > corners.size(0))
@@ -199,6 +221,8 @@ namespace {
 		                "Areas of each joint plane, as seen along its normal [m^2]: within the solid, cut, taken by earlier planes, bridged by whole "
 		                "cells, and "
 		                "cut beyond the polygon; the true area of faces off the plane [m^2]; the largest distance of their corners from it [m].")
+		        .add_property("hole_cuts", holeCuts, "Volume of each hole inside the cells, and of the cells that it has taken out [m^3].")
+		        .def_readonly("first_hole", &P::first_hole, "Wall index of the first hole; other holes follow.")
 		        .add_property("sphere_of_cell", integers<P, int, &P::sphere_of_cell>, "Sphere of each cell.")
 		        .add_property("hidden_spheres", integers<P, int, &P::hidden_spheres>, "Spheres without a cell.")
 		        .add_property("moved_centres", integers<P, int, &P::moved_centres>, "Cells whose centre is their centroid.")
@@ -252,11 +276,12 @@ void register_space_bindings()
 	         py::arg("short_edge"),
 	         py::arg("allow_hidden"),
 	         py::arg("notches") = py::list(),
-	         py::arg("joints")  = py::list()),
+	         py::arg("joints")  = py::list(),
+	         py::arg("holes")   = py::list()),
 	        "Return the Laguerre cells of spheres, rows x, y, z, radius. notches: x and z of the front of each notch, and whether it comes from above; the "
 	        "flanks of notch i have the wall index walls + i. joints: normal, offset and corners (n, 3) of each joint plane, no corners: the whole plane; "
 	        "they "
-	        "are cut in their order.");
+	        "are cut in their order. holes: of each hole a list of its facets, as joints, with normals out of the hole.");
 	py::def("area_within",
 	        areaWithin,
 	        (py::arg("normal"), py::arg("offset"), py::arg("corners"), py::arg("solid")),
@@ -269,9 +294,10 @@ void register_space_bindings()
 	         py::arg("solid"),
 	         py::arg("short_edge"),
 	         py::arg("pores"),
-	         py::arg("joints") = py::list()),
+	         py::arg("joints") = py::list(),
+	         py::arg("holes")  = py::list()),
 	        "Return user-supplied convex cells. faces: pairs of cells, offsets of the faces in the list of corners, and this list; spheres: rows x, y, z, "
-	        "radius of the cells; pores: cells that are taken out after short edges are collapsed, in order; joints: as for polyhedra.");
+	        "radius of the cells; pores: cells that are taken out after short edges are collapsed, in order; joints, holes: as for polyhedra.");
 	py::def("fan_meshes", fanMeshes, py::arg("cells"), "Tetrahedra of all cells.");
 	py::def("solid_constants",
 	        solidConstants,

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import FloatArray
-from ...dimensions import refused
 from ...errors import InputError
-from ...require import POSITIVE, quoted, require_number
+from ...require import POSITIVE, Bounds, quoted, require_number, require_whole
 from ...specimens.space.specimen import SolidSpecimen
 from ..places import SPACE, Vector, require_vector
 from ..stages.pressures import sides_of
@@ -34,6 +33,8 @@ FLAT = {
 }
 #: Side that is round: the mantle has the number of the right side.
 _MANTLE = RIGHT
+#: Number of the wall of the first hole among the sides of the kernel.
+_HOLE = 7
 #: Axis across the section that maps draw.
 _DEPTH = 1
 #: Cosine from which on normals are along each other, and part of a patch that is an edge [-].
@@ -98,17 +99,20 @@ def sides_under(specimen: SolidSpecimen, side: object, hole: object) -> list[int
     """Return the sides of a 3D specimen in a call of ``fluid``, also a lateral surface.
 
     Raises:
-        InputError: for a side that does not exist, or a hole.
+        InputError: for a side or hole that does not exist.
     """
+    if (side is None) == (hole is None):
+        raise InputError("fluid: give exactly one of side and hole")
     if hole is not None:
-        asked = f"fluid: hole = {quoted(hole)}, must not be given for a 3D specimen"
-        raise refused(asked, "hole_pressure")
-    if side is None:
-        raise InputError("fluid: side = None, must be given; give the number of one or more sides")
-    sides, there = sides_of(side), sorted({*FLAT[specimen.kind], _MANTLE})
-    if strange := [one for one in sides if one not in there]:
+        there = len(specimen.holes)
+        if not there:
+            raise InputError(f"fluid: hole = {quoted(hole)}, the specimen has none; give a side")
+        bounds = Bounds(at_least=0, at_most=there - 1)
+        return [_HOLE + require_whole("fluid: hole", hole, bounds)]
+    sides, flat = sides_of(side), sorted({*FLAT[specimen.kind], _MANTLE})
+    if strange := [one for one in sides if one not in flat]:
         raise InputError(
-            f"fluid: side = {strange[0]}, must be one of {', '.join(map(str, there))}, the sides "
+            f"fluid: side = {strange[0]}, must be one of {', '.join(map(str, flat))}, the sides "
             f"of a {specimen.kind}; choose one of them"
         )
     return sides

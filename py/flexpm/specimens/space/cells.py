@@ -28,7 +28,7 @@ from ...require import quoted
 from .. import packing
 from ..files.rules import refuse
 from ..kernel_input import call, checksum
-from .cuts import kernel_planes
+from .cuts import kernel_holes, kernel_planes
 from .frame import SolidFrame
 from .spec import SolidSpec
 
@@ -87,11 +87,11 @@ def cells_of(
     planes: Sequence[JointPlane] = (),
 ) -> tuple[FloatArray, Polyhedra]:
     """Spheres and their cells; hidden spheres, which have no cell, are dropped or refused."""
-    joints = kernel_planes(planes)
+    joints, holes = kernel_planes(planes), kernel_holes(spec)
     while True:
         short = spec.short_edge * _mean_diameter(spheres)
         outline = outline_of(spheres, spec)
-        cells = call(polyhedra, spheres, outline, short, drop_hidden, [], joints)
+        cells = call(polyhedra, spheres, outline, short, drop_hidden, [], joints, holes)
         if len(cells.hidden_spheres) == 0:
             break
         spheres = np.ascontiguousarray(np.delete(spheres, cells.hidden_spheres, axis=0))
@@ -148,6 +148,15 @@ def polygons(cells: Polyhedra, first: int, last: int) -> list[IntArray]:
     return [cells.face_vertices[ends[k] : ends[k + 1]] for k in range(first, last)]
 
 
+def contact_points(cells: Polyhedra) -> tuple[int, int]:
+    """Return the number of contact points, and of contacts with equal points.
+
+    Raises:
+        InputError: if a contact has no space for its points.
+    """
+    return call(face_point_counts, cells)
+
+
 def figures(cells: Polyhedra, meshes: FanMeshes) -> Table:
     """Count and measure grains, contacts, edges and tetrahedra: volumes [m3], lengths [m]."""
     faces = polygons(cells, 0, cells.contacts or len(cells.faces))
@@ -156,7 +165,7 @@ def figures(cells: Polyhedra, meshes: FanMeshes) -> Table:
     places = cells.vertices
     lengths = np.sqrt(np.sum((places[ends] - places[starts]) ** 2, axis=1))
     corners = np.diff(cells.face_offsets[: cells.contacts + 1])
-    points, equal = face_point_counts(cells)
+    points, equal = contact_points(cells)
     return {
         "grains": cells.cells,
         "contacts": cells.contacts,

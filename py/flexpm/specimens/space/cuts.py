@@ -11,6 +11,8 @@ from ..._flexpm import Polyhedra
 from ...arrays import FloatArray, IntArray
 from ...files import Table
 from ...joints.planes import JointPlane, PlanesCut, names_of
+from . import holes
+from .spec import SolidSpec
 
 #: Plane of a joint as the kernel takes it: normal, offset, corners.
 KernelPlane = tuple[tuple[float, float, float], float, FloatArray]
@@ -18,6 +20,11 @@ KernelPlane = tuple[tuple[float, float, float], float, FloatArray]
 _STRAIGHT = 1e-9
 #: Below this share of an area an area is round-off [-].
 _NOTHING = 1e-9
+
+
+def kernel_holes(spec: SolidSpec) -> list[list[KernelPlane]]:
+    """Return the holes of a specimen as the kernel takes them: their facets."""
+    return [kernel_planes(holes.facets_of(one, spec.corners)) for one in spec.holes or ()]
 
 
 def kernel_planes(planes: Sequence[JointPlane]) -> list[KernelPlane]:
@@ -80,6 +87,34 @@ def outcomes(
             crowding=within / volume * grain,
             smallest_disc=2.0 * min(radii) / grain if radii else None,
         )
+    return found
+
+
+def hole_outcomes(cells: Polyhedra, spec: SolidSpec, grain: float) -> list[holes.HoleCut]:
+    """Outcome of the cut of each hole.
+
+    Args:
+        cells: The cells.
+        spec: Inputs of the specimen.
+        grain: Mean diameter of the grains [m].
+    """
+    found = []
+    for number, hole in enumerate(spec.holes or ()):
+        facets = holes.facets_of(hole, spec.corners)
+        faces = np.flatnonzero(cells.faces[:, 2] == cells.first_hole + number)
+        area, off = 0.0, 0.0
+        normals = np.array([one.normal for one in facets])
+        offsets = np.array([one.offset for one in facets])
+        for face in faces:
+            ends = cells.face_offsets[face : face + 2]
+            corners = cells.vertices[cells.face_vertices[ends[0] : ends[1]]]
+            arms = corners - corners[0]
+            area += 0.5 * float(np.linalg.norm(np.cross(arms[1:-1], arms[2:]).sum(axis=0)))
+            # distance from the polyhedron's surface, of corners inside and near it
+            off = max(off, float(np.abs((corners @ normals.T - offsets).max(axis=1)).max()))
+        off = off if off > _STRAIGHT * grain else 0.0
+        volume = float(cells.hole_cuts[number, 0])
+        found.append(holes.HoleCut(len(facets), volume, area, off))
     return found
 
 

@@ -21,6 +21,7 @@ from ..files.rules import (
     row_of,
     spec_values,
 )
+from .holes import is_hole
 from .spec import SolidSpec
 
 
@@ -68,6 +69,7 @@ _SPEC: dict[str, Rule] = {
     "minerals": or_none(is_text),
     "joints": or_none(is_text),
     "joint_names": or_none(list_of(is_text, 1)),
+    "holes": or_none(list_of(is_hole, 1)),
     "networks": or_none(list_of(lambda value: isinstance(value, Mapping), 1)),
 }
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy.typing as npt
 
-from ...dimensions import refused
+from ...errors import InputError
 from ...files import Table
 from ...progress import Progress
 from ...require import quoted
@@ -290,8 +290,10 @@ class SolidShapes:
 def _packed(kind: str, sizes: dict[str, float], packing: Packing) -> SolidSpecimen:
     given: Table = {**packing}
     if "holes" in given:
-        asked = f"Specimen.{kind}: holes = {quoted(given['holes'])}, must be left out"
-        raise refused(asked, "holes")
+        raise InputError(
+            f"Specimen.{kind}: holes = {quoted(given['holes'])}, must be left out; use with_holes "
+            "of the specimen"
+        )
     fields: Table = {**sizes, **packing_of(kind, (), packing)}
     progress = fields.pop("progress", None)
     return SolidSpecimen.pack(SolidSpec(kind, **fields), progress)

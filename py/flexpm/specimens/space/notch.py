@@ -81,6 +81,11 @@ def notched(specimen: SolidSpecimen, notches: Sequence[tuple[float, float, bool]
             f"run: notch = {notches[0][1]:g} m, must not be given for user-supplied cells; pack "
             "spheres instead"
         )
+    if specimen.holes:
+        raise InputError(
+            f"run: notch = {notches[0][1]:g} m, must not be given for a 3D specimen with holes; "
+            "leave out one of them"
+        )
     if specimen.planes:
         raise InputError(
             f"run: notch = {notches[0][1]:g} m, must not be given for a 3D specimen with joints; "

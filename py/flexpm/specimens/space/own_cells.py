@@ -15,7 +15,7 @@ from ...files import Table
 from ...joints.planes import JointPlane
 from ..files.rules import refuse
 from ..kernel_input import call, checksum
-from .cuts import kernel_planes
+from .cuts import kernel_holes, kernel_planes
 from .frame import SolidFrame
 from .spec import SolidSpec
 
@@ -119,7 +119,8 @@ class OwnCells:
         Args:
             spheres: Rows of the grains, see `spheres`.
             spec: Shape, sizes and limit of edges, which refers to the mean diameter of the grains.
-            planes: Planes of joints that cut the cells before short edges are collapsed.
+            planes: Planes of joints that cut the cells before short edges are collapsed, as the
+                holes of the spec do.
 
         Raises:
             InputError: for cells that are not closed, plane and convex, or do not fill the box or
@@ -129,9 +130,9 @@ class OwnCells:
         faces = (self.pairs, self.offsets, self.corners)
         every = np.vstack((spheres, self.pore_spheres))
         pores = np.arange(self.grains, self.cells, dtype=np.int32)
-        joints = kernel_planes(planes)
+        cut = kernel_planes(planes), kernel_holes(spec)
         outline = self.outline(spec)
-        return call(own_polyhedra, self.vertices, faces, every, outline, short, pores, joints)
+        return call(own_polyhedra, self.vertices, faces, every, outline, short, pores, *cut)
 
     def outline(self, spec: SolidSpec) -> Solid:
         """Return the outline of the cells; its lateral surface has the facets of the cells."""

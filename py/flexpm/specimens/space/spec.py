@@ -61,6 +61,7 @@ class SolidSpec:
         joint_names: Names of the joints; None without joints.
         networks: Fracture networks whose planes are among the joints, as tables that generate them
             again; None without networks.
+        holes: Holes, in the order in which they are cut; None without holes.
     """
 
     kind: str = "box"
@@ -79,6 +80,7 @@ class SolidSpec:
     joints: str | None = None
     joint_names: tuple[str, ...] | None = None
     networks: tuple[Table, ...] | None = None
+    holes: tuple[Table, ...] | None = None
 
     # what specimens of the plane may have, and solids do not
     strengths: ClassVar[None] = None
@@ -94,7 +96,7 @@ class SolidSpec:
             self._set(name, self._size(where, name))
         self._set("short_edge", require_short_edge(self.short_edge))
         self._set("source", require_source(where, self.source))
-        for name in ("joint_names", "networks"):  # lists in a file
+        for name in ("joint_names", "networks", "holes"):  # lists in a file
             if getattr(self, name) is not None:
                 self._set(name, tuple(getattr(self, name)))
         if self.spheres is None:
@@ -116,12 +118,13 @@ class SolidSpec:
     @property
     def is_packed(self) -> bool:
         """Whether a packing reproduces the specimen without a file."""
-        return self.spheres is None and self.minerals is None and self.joints is None
+        given = (self.spheres, self.minerals, self.joints, self.holes)
+        return all(one is None for one in given)
 
     @property
     def is_laguerre(self) -> bool:
         """Whether all cells are whole Laguerre cells of spheres."""
-        return self.cells is None and self.joints is None
+        return self.cells is None and self.joints is None and self.holes is None
 
     def with_joints(self, planes: Sequence[JointPlane], network: Table | None = None) -> SolidSpec:
         """Return the same specimen with more joints.
@@ -184,10 +187,11 @@ class SolidSpec:
         return {name: one for network in tables for name, one in network["set"].items()}
 
     def require_alike(self, model: str) -> None:
-        """Reject joints, for a model that makes its own contacts."""
-        if self.joints is not None:
+        """Reject joints and holes, for a model that makes its own contacts."""
+        if self.joints is not None or self.holes is not None:
+            what = "joints" if self.holes is None else "holes"
             raise InputError(
-                f"model = {model}, must be flexible or rigid for a specimen with joints; use one "
+                f"model = {model}, must be flexible or rigid for a specimen with {what}; use one "
                 "of them"
             )
 

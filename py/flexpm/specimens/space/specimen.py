@@ -26,11 +26,17 @@ from ..kernel_input import call, checksum, checksums_of_starts, mineral_indices
 from ..one_dimension import PlaneOnly
 from . import cells as of_spheres
 from . import cuts, file
+from . import holes as of_holes
 from .own_cells import KINDS, OwnCells
 from .spec import SHORT_EDGE, SIZES, SolidSpec
 
 if TYPE_CHECKING:
     from ..volumes.volume_report import VolumeReport
+
+#: Least volume of a tetrahedron, in cubes of the mean diameter [-].
+_FLAT = 1e-12
+#: Below this share of the volume of a specimen a volume is round-off [-].
+_NO_VOLUME = 1e-9
 
 
 @with_old_names
@@ -53,7 +59,7 @@ class SolidSpecimen(PlaneOnly):
         mineral_names: Names of the minerals of a label volume, in their order. If the material has
             a mineral of one of these names, it must have the same index.
         fit: Comparison of a label volume with the cells; None for other specimens, and not saved.
-        uncut: Spheres of the cells before joints cut them; None without joints.
+        uncut: Spheres of the cells before joints and holes cut them; None without these.
         planes: Planes of the joints, in the order in which they are cut.
 
     Example:
@@ -82,9 +88,9 @@ class SolidSpecimen(PlaneOnly):
         """
         where = f"Specimen.{spec.kind}"
         if not spec.is_packed:
-            what = spec.spheres or spec.minerals or spec.joints
+            what = spec.spheres or spec.minerals or spec.joints or spec.holes
             raise InputError(
-                f"{where}: spheres, minerals or joints = {what}, were given and cannot be packed "
+                f"{where}: spheres, minerals, joints or holes = {what}, were given and cannot be packed "
                 "again; load the saved specimen"
             )
         given = of_spheres.packed_spheres(where, spec, progress)
@@ -194,7 +200,7 @@ class SolidSpecimen(PlaneOnly):
         names = tuple(content.get("mineral_names", ()))
         return cls(
             *(spheres, cells, spec, content["removed_spheres"], given, own, names),
-            uncut=whole if planes else None,
+            uncut=whole if planes or spec.holes else None,
             planes=planes,
         )
 
@@ -329,23 +335,9 @@ class SolidSpecimen(PlaneOnly):
     def _cut_by(self, planes: Sequence[JointPlane], network: Table | None = None) -> SolidSpecimen:
         """Return the specimen cut by checked planes, the table of whose network may be given."""
         require_size(planes, self.mean_diameter)
-        before = self._whole_minerals()
         every = (*self.planes, *planes)
         require_few(every)
-        spec = self.spec.with_joints(planes, network)
-        whole, spheres, cells = _cut(self.whole_spheres, self.given, spec, every)
-        minerals = None if before is None else before[cells.sphere_of_cell]
-        if minerals is not None:
-            minerals.setflags(write=False)
-        found = dataclasses.replace(
-            self,
-            spheres=spheres,
-            cells=cells,
-            spec=spec,
-            minerals=minerals,
-            uncut=whole,
-            planes=every,
-        )
+        found = self._cut_again(self.spec.with_joints(planes, network), every)
         told = found.told_cuts
         if all(told[one.name].cut <= 0.0 for one in planes):
             low, high = (end(self.cells.vertices, axis=0) for end in (np.min, np.max))
@@ -355,16 +347,112 @@ class SolidSpecimen(PlaneOnly):
             )
         return found
 
+    def with_holes(self, holes: Sequence[Mapping[str, object]]) -> SolidSpecimen:
+        """Return the specimen with holes: cylinders along any axis, and boxes (D108).
+
+        Grains are cut along the wall of a hole, and their parts within it are removed. All cuts are
+        made again: first of joints, then of holes in their order. A part that would be too small to
+        stay is removed or left with its grain, see `told_holes`.
+
+        Args:
+            holes: For each hole a table: of a cylinder a ``point`` of its axis [m], the direction
+                ``axis`` and the ``diameter`` [m]; of a box its corners ``low`` and ``high``, x, y
+                and z [m]. A cylinder goes through the specimen; one with a ``length`` [m] begins at
+                the point and ends at this length along the axis. It is a prism of the same section
+                with a number of ``facets``: by default one for each grain around it, and at least
+                16.
+
+        Returns:
+            The specimen; grains in their order, second parts of cut grains last.
+
+        Raises:
+            InputError: for a table that is no hole, a hole outside the specimen, smaller than a
+                grain or given twice, holes that leave fewer than two grains, and parts of a grain
+                with different minerals.
+
+        Example:
+            >>> cut = solid.with_holes(
+            ...     [{"point": (0.004, 0.004, 0.006), "axis": (0, 1, 0), "diameter": 0.004}]
+            ... )
+            >>> f"{1e9 * cut.hole_volume:.2f} mm3"
+            '100.53 mm3'
+        """
+        new = of_holes.checked(holes, self.mean_diameter, self.holes)
+        spec = dataclasses.replace(self.spec, holes=(*self.holes, *new))
+        found = self._cut_again(spec, self.planes)
+        low, high = self.spec.corners
+        for number, told in enumerate(found.told_holes):
+            if not told.volume > _NO_VOLUME * self.spec.volume:
+                raise InputError(
+                    f"hole {number}: volume inside the rock = {told.volume:.3g} m3, must be above "
+                    f"0; the specimen extends from {_place(low)} to {_place(high)}: move the hole"
+                )
+        if found.cells.cells < 2:
+            raise InputError(
+                f"holes: grains left = {found.cells.cells}, must be >= 2; make the holes smaller"
+            )
+        try:
+            flattest = found.meshes().volumes.min() / self.mean_diameter**3
+            of_spheres.contact_points(found.cells)
+        except InputError:
+            flattest = 0.0
+        if not flattest > _FLAT:
+            raise InputError(
+                f"hole {len(found.holes) - 1}: its wall cuts a grain so that a face is too narrow; "
+                "move the hole by a tenth of a grain, or choose other facets"
+            )
+        return found
+
+    @property
+    def holes(self) -> tuple[Table, ...]:
+        """Holes as tables of plain values, in the order of `PartRig.fluid`."""
+        return self.spec.holes or ()
+
+    @property
+    def told_holes(self) -> list[of_holes.HoleCut]:
+        """Outcome of the cut of each hole: volume [m3], wall [m2] and its deviation [m]."""
+        return cuts.hole_outcomes(self.cells, self.spec, self.mean_diameter)
+
+    @property
+    def hole_volume(self) -> float:
+        """Volume that holes have removed [m3]: that of the outline minus the cells and pores."""
+        if not self.holes:
+            return 0.0
+        whole, *_, cells = _cut(
+            *(self.whole_spheres, self.given, dataclasses.replace(self.spec, holes=None)),
+            self.planes,
+        )
+        return math.fsum(cells.volumes) - math.fsum(self.cells.volumes)
+
+    def _cut_again(self, spec: SolidSpec, planes: tuple[JointPlane, ...]) -> SolidSpecimen:
+        """Return the specimen with other joints or holes; parts have the minerals of grains."""
+        before = self._whole_minerals()
+        whole, spheres, cells = _cut(self.whole_spheres, self.given, spec, planes)
+        minerals = None if before is None else before[cells.sphere_of_cell]
+        if minerals is not None:
+            minerals.setflags(write=False)
+            if spec.holes:  # grains that have gone have none
+                spec = dataclasses.replace(spec, minerals=checksum(minerals))
+        return dataclasses.replace(
+            self,
+            spheres=spheres,
+            cells=cells,
+            spec=spec,
+            minerals=minerals,
+            uncut=whole,
+            planes=planes,
+        )
+
     def _whole_minerals(self) -> IntArray | None:
-        """Mineral of each grain before joints cut them.
+        """Mineral of each grain before joints and holes cut them, 0 if nothing of it is left.
 
         Raises:
             InputError: if parts of one grain have different minerals.
         """
         if self.minerals is None or self.grains is None:
             return self.minerals
-        # whole grains and first parts come first, in the order of the spheres
-        found = self.minerals[: len(self.whole_spheres)]
+        found: IntArray = np.zeros(len(self.whole_spheres), dtype=self.minerals.dtype)
+        found[self.grains[::-1]] = self.minerals[::-1]  # of the first part of each grain
         mixed = np.flatnonzero(self.minerals != found[self.grains])
         if mixed.size:
             raise InputError(
@@ -422,7 +510,7 @@ class SolidSpecimen(PlaneOnly):
                 f"without_grains: grain = {wrong}, must be 0 to {count - 1}; give indices of this "
                 "specimen's grains"
             )
-        if self.planes or self.given is not None or self.kind not in KINDS:
+        if self.planes or self.holes or self.given is not None or self.kind not in KINDS:
             raise InputError(
                 "without_grains: cells = cut or given, must be Laguerre cells of a box, cylinder "
                 "or disc; remove grains before joints are cut"
@@ -490,8 +578,8 @@ class SolidSpecimen(PlaneOnly):
 
     @property
     def grains(self) -> IntArray | None:
-        """Index of the grain that each cell was a part of before joints cut it; None: no joints."""
-        return self.cells.sphere_of_cell if self.planes else None
+        """Index of the grain that each cell was a part of before it was cut; None: no cuts."""
+        return self.cells.sphere_of_cell if self.planes or self.holes else None
 
     @property
     def depth(self) -> float | None:
@@ -637,28 +725,30 @@ class SolidSpecimen(PlaneOnly):
             "mean_diameter": self.mean_diameter,
             **({"joints": joints} if joints else {}),
             **({"networks": networks} if networks else {}),
+            **({"holes": [one.to_json() for one in self.told_holes]} if self.holes else {}),
         }
 
 
 def _cut(
     spheres: FloatArray, given: OwnCells | None, spec: SolidSpec, planes: Sequence[JointPlane]
 ) -> tuple[FloatArray, FloatArray, Polyhedra]:
-    """Return the spheres of whole cells, those of all parts, and the cells cut by planes."""
+    """Return the spheres of whole cells, those of all parts, and the cells cut by planes and holes."""
     if given is None:
         spheres, cells = of_spheres.cells_of(spheres, spec, drop_hidden=False, planes=planes)
     else:
         spheres.setflags(write=False)
         cells = given.polyhedra(spheres, spec, planes)
-    if not planes:
+    if not planes and not spec.holes:
         return spheres, spheres, cells
     grains = cells.sphere_of_cell
     parts = spheres[grains]
     cut = np.bincount(grains)[grains] > 1
+    cut[cells.faces[cells.faces[:, 2] >= cells.first_hole, 0]] = True
     parts[cut, :3] = cells.centres[cut]
     parts[cut, 3] = np.cbrt(0.75 / np.pi * cells.volumes[cut])
     parts.setflags(write=False)
     return spheres, parts, cells
 
 
-def _place(point: FloatArray) -> str:
+def _place(point: FloatArray | tuple[float, ...]) -> str:
     return "({:.6g}, {:.6g}, {:.6g}) m".format(*point)
