@@ -153,6 +153,8 @@ def test_what_is_no_hole_is_refused(box, holes, words):
 def test_what_a_specimen_with_holes_cannot_do_is_refused(box):
     cut = box.with_holes([BORE])
     refusal("hole 1 = .*, is hole 0 again", cut.with_holes, [BORE])
+    plate = flexpm.Specimen.rectangle(0.02, 0.02, 0.01)
+    refusal("with_holes: specimen = .*, must be 3D: .*Specimen.polygon", plate.with_holes, [BORE])
     refusal("without_grains: cells = cut or given", cut.without_grains, [0])
     refusal("model = jcfpm, must be flexible or rigid", cut.spec.require_alike, "jcfpm")
     refusal("joints or holes = ", type(cut).pack, cut.spec)

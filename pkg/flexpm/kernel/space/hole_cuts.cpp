@@ -92,8 +92,8 @@ void choose_facets(CellComplex& complex, const HoleCut& hole, double close)
 {
     for (CellFace& face : complex.faces) {
         if (face.wall != hole.wall) continue;
-        const auto nearest = std::min_element(hole.facets.begin(), hole.facets.end(),
-            [&](const PlaneCut& a, const PlaneCut& b) {
+        const auto nearest = std::min_element(
+            hole.facets.begin(), hole.facets.end(), [&](const PlaneCut& a, const PlaneCut& b) {
                 return distance_of_face(complex, face, a) < distance_of_face(complex, face, b);
             });
         face.joint = nearest->joint;
@@ -153,11 +153,11 @@ void finish_holes(CellComplex& complex, int first_facet)
     const int first_wall = complex.first_joint + first_facet;
     for (std::size_t v = 0; v < complex.walls.size(); ++v) {
         auto& walls = complex.walls[v];
-        walls.erase(std::remove_if(walls.begin(), walls.end(),
-                        [&](int wall) {
-                            return wall >= first_wall
-                                && on_hole.count({ static_cast<int>(v), wall }) == 0;
-                        }),
+        walls.erase(
+            std::remove_if(walls.begin(), walls.end(),
+                [&](int wall) {
+                    return wall >= first_wall && on_hole.count({ static_cast<int>(v), wall }) == 0;
+                }),
             walls.end());
     }
 }

@@ -306,8 +306,7 @@ Polyhedra own_polyhedra(const OwnCells& own, const Solid& solid, double short_ed
     merge_close_vertices(complex, zero_edge * mean_diameter(own.spheres));
     require_centres(complex, own.spheres);
     const auto whole = static_cast<int>(own.spheres.size());
-    CutCells cut = cut_cells(
-        complex, solid, mean_diameter(own.spheres), own.joints, {}, own.holes);
+    CutCells cut = cut_cells(complex, solid, mean_diameter(own.spheres), own.joints, {}, own.holes);
     Polyhedra p;
     p.joint_cuts = std::move(cut.joints);
     set_holes(p, cut, first_hole_wall(solid, {}));

@@ -333,8 +333,9 @@ void CellCutter::choose(Near& near, CutAreas& areas)
     const double all = area_of_polygon(section);
     const double part = area_of_polygon(part_within(section, plane_->region));
     const Box& box = boxes_[near.cell];
-    const bool is_within =
-        closed ? all > 0.0 && part >= (plane_->hole.empty() ? 0.5 : nothing) * all : is_in_region(0.5 * (box.low + box.high));
+    const bool is_within = closed
+        ? all > 0.0 && part >= (plane_->hole.empty() ? 0.5 : nothing) * all
+        : is_in_region(0.5 * (box.low + box.high));
     if (!is_within) {
         if (closed) areas.bridged += part;
         return;

@@ -25,7 +25,8 @@ struct PlaneCut {
     int wall = 0;                        ///< number of the plane among the walls of vertices
     int joint = 0;                       ///< number that the faces between both sides have
     bool open = false;  ///< both sides get flanks on `wall` instead of common faces: a notch
-    std::vector<HalfSpace> hole = {};  ///< of whose facets the plane has one; the hole is on its left
+    std::vector<HalfSpace>
+        hole = {};  ///< of whose facets the plane has one; the hole is on its left
 };
 
 /// Least pieces that a cut leaves.

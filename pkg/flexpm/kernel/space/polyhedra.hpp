@@ -30,9 +30,10 @@ struct Polyhedra {
     std::vector<int> joints;               ///< per contact, the joint that it lies on, or -1
     std::vector<JointOutcome> joint_cuts;  ///< outcome of each joint
     std::vector<HoleOutcome> hole_cuts;    ///< outcome of each hole
-    int first_hole = std::numeric_limits<int>::max();  ///< wall of the first hole; other holes follow
-    std::vector<int> sphere_of_cell;       ///< pieces of a cell that has been cut have one
-    std::vector<int> hidden_spheres;       ///< without a cell
+    int first_hole =
+        std::numeric_limits<int>::max();  ///< wall of the first hole; other holes follow
+    std::vector<int> sphere_of_cell;      ///< pieces of a cell that has been cut have one
+    std::vector<int> hidden_spheres;      ///< without a cell
     std::vector<int>
         moved_centres;  ///< cells whose centre is their centroid: the sphere's is not well inside
     int contacts = 0;   ///< faces between cells

@@ -340,8 +340,7 @@ private:
         for (std::size_t k = 0; k < c.touched.size(); ++k) {
             const CellFace& face = complex.faces[c.touched[k]];
             const bool looks = face.second >= 0 && (flattens || complex.has_holes);
-            if (looks && (flattens || has_room(face.corners)))
-                roomy.push_back(static_cast<int>(k));
+            if (looks && (flattens || has_room(face.corners))) roomy.push_back(static_cast<int>(k));
         }
         const Vector at = std::exchange(complex.vertices[c.kept], target);
         for (std::size_t k = 0; k < c.touched.size(); ++k)
@@ -374,7 +373,8 @@ private:
             if (face.second >= 0)
                 worst = std::max(worst, sharpest_cosine(centres[face.second], p, r, q));
             const bool is_short = std::min({ length(a, b), length(b, c), length(c, a) }) < limit;
-            if (!is_short || worst > (flattens || complex.has_holes ? flat_cosine : 1.0)) result = std::max(result, worst);
+            if (!is_short || worst > (flattens || complex.has_holes ? flat_cosine : 1.0))
+                result = std::max(result, worst);
         }
         return result;
     }

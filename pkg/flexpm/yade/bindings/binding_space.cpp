@@ -135,8 +135,7 @@ namespace {
 	}
 
 	/// Given cells: vertices, rows first, second of faces, their offsets among the corners, and spheres.
-	std::shared_ptr<Polyhedra>
-	ownPolyhedra(
+	std::shared_ptr<Polyhedra> ownPolyhedra(
 	        py::object vertices, py::tuple faces, py::object rows, const Solid& solid, double shortEdge, py::object pores, py::list joints, py::list holes)
 	{
 		const InputArray<int> pairs(faces[0], 2, "pairs"), offsets(faces[1], 1, "offsets"), corners(faces[2], 1, "corners");

@@ -109,7 +109,7 @@ def facets_of(hole: Table, corners: Corners) -> list[JointPlane]:
     point, first, last = _vector(hole["point"]), 0.0, hole.get("length", 0.0)
     if "length" not in hole:
         every = itertools.product(*zip(*corners, strict=True))
-        along = [_dot(axis, _minus(corner, point)) for corner in every]
+        along = [_dot(axis, _minus(_vector(corner), point)) for corner in every]
         more = _BEYOND * math.dist(*corners)
         first, last = min(along) - more, max(along) + more
     u, v = _across(axis)
@@ -160,15 +160,15 @@ def _hole(where: str, given: Any, grain: float) -> Table:
         return {"low": [*low], "high": [*high]}
     point = _numbers(f"{where}: point", given["point"], "m")
     axis_given = _numbers(f"{where}: axis", given["axis"], "")
-    length = math.hypot(*axis_given)
-    if not length > 0.0:
+    if not math.hypot(*axis_given) > 0.0:
         raise InputError(f"{where}: axis = {axis_given}, must not be zero; give a direction")
     diameter = require_number(f"{where}: diameter", given["diameter"], LENGTH, "m")
     _require_size(f"{where}: diameter", diameter, grain)
-    found = {"point": [*point], "axis": [*_unit(axis_given)], "diameter": diameter}
+    found: Table = {"point": [*point], "axis": [*_unit(axis_given)], "diameter": diameter}
     if given.get("length") is not None:
-        found["length"] = require_number(f"{where}: length", given["length"], LENGTH, "m")
-        _require_size(f"{where}: length", found["length"], grain)
+        length = require_number(f"{where}: length", given["length"], LENGTH, "m")
+        _require_size(f"{where}: length", length, grain)
+        found["length"] = length
     facets = given.get("facets")
     if facets is None:
         facets = max(_FACETS, round(math.pi * diameter / grain)) if grain else _FACETS

@@ -90,8 +90,8 @@ class SolidSpecimen(PlaneOnly):
         if not spec.is_packed:
             what = spec.spheres or spec.minerals or spec.joints or spec.holes
             raise InputError(
-                f"{where}: spheres, minerals, joints or holes = {what}, were given and cannot be packed "
-                "again; load the saved specimen"
+                f"{where}: spheres, minerals, joints or holes = {what}, were given and cannot be "
+                "packed again; load the saved specimen"
             )
         given = of_spheres.packed_spheres(where, spec, progress)
         spheres, cells = of_spheres.cells_of(given, spec, drop_hidden=True)
@@ -732,7 +732,7 @@ class SolidSpecimen(PlaneOnly):
 def _cut(
     spheres: FloatArray, given: OwnCells | None, spec: SolidSpec, planes: Sequence[JointPlane]
 ) -> tuple[FloatArray, FloatArray, Polyhedra]:
-    """Return the spheres of whole cells, those of all parts, and the cells cut by planes and holes."""
+    """Return the spheres of whole cells and of all parts, and the cells with all cuts."""
     if given is None:
         spheres, cells = of_spheres.cells_of(spheres, spec, drop_hidden=False, planes=planes)
     else:
