@@ -20,8 +20,8 @@ constexpr double noise = 1e-3;
 /// Smallest angle between sides of a tetrahedron that a collapse may make, as its cosine: 2
 /// degrees.
 constexpr double cosine_limit = 0.99939082701909573;
-/// Cosine of that angle, 0.08 degrees, of tetrahedra that are flat: none may become so as corners are
-/// moved into planes.
+/// Cosine of that angle, 0.08 degrees, of tetrahedra that are flat: in cells with holes none may
+/// become flat.
 constexpr double flat_cosine = 1.0 - 1e-6;
 
 /// Sine of the smallest angle of planes that meet in a line or point to which a vertex is moved.
@@ -204,9 +204,10 @@ private:
         const double allowed = worst();
         for (std::size_t k = 0; k < group.size(); ++k)
             complex.vertices[group[k]] = targets[k];
-        const bool moved = worst() <= std::min(allowed, flat_cosine)
+        const bool moved = worst() <= std::min(allowed, flattest())
             && std::all_of(touched.begin(), touched.end(), [&](int f) {
-                   return complex.faces[f].second < 0 || has_room(complex.faces[f].corners);
+                   return !complex.has_holes || complex.faces[f].second < 0
+                       || has_room(complex.faces[f].corners);
                });
         any = any || moved;
         for (std::size_t k = 0; k < group.size(); ++k) {
@@ -339,18 +340,21 @@ private:
         std::vector<int> roomy;  // faces that must keep their space
         for (std::size_t k = 0; k < c.touched.size(); ++k) {
             const CellFace& face = complex.faces[c.touched[k]];
-            const bool looks = face.second >= 0 && (flattens || complex.has_holes);
+            const bool looks = face.second >= 0 && complex.has_holes;
             if (looks && (flattens || has_room(face.corners))) roomy.push_back(static_cast<int>(k));
         }
         const Vector at = std::exchange(complex.vertices[c.kept], target);
         for (std::size_t k = 0; k < c.touched.size(); ++k)
             after = std::max(after, sharpest(complex.faces[c.touched[k]], c.corners[k]));
-        const bool kept = after <= before && (!flattens || after <= flat_cosine)
+        const bool kept = after <= before && (!flattens || after <= flattest())
             && std::all_of(
                 roomy.begin(), roomy.end(), [&](int k) { return has_room(c.corners[k]); });
         if (!kept) complex.vertices[c.kept] = at;
         return kept;
     }
+
+    /// Cosine of the smallest angle that a move may leave.
+    double flattest() const { return complex.has_holes ? flat_cosine : 1.0; }
 
     /// Whether a contact has space for its points, which a polygon that has become concave lacks.
     bool has_room(const std::vector<int>& corners) const
@@ -373,8 +377,7 @@ private:
             if (face.second >= 0)
                 worst = std::max(worst, sharpest_cosine(centres[face.second], p, r, q));
             const bool is_short = std::min({ length(a, b), length(b, c), length(c, a) }) < limit;
-            if (!is_short || worst > (flattens || complex.has_holes ? flat_cosine : 1.0))
-                result = std::max(result, worst);
+            if (!is_short || worst > flattest()) result = std::max(result, worst);
         }
         return result;
     }

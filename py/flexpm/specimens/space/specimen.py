@@ -374,7 +374,7 @@ class SolidSpecimen(PlaneOnly):
             >>> cut = solid.with_holes(
             ...     [{"point": (0.004, 0.004, 0.006), "axis": (0, 1, 0), "diameter": 0.004}]
             ... )
-            >>> f"{1e9 * cut.hole_volume:.2f} mm3"
+            >>> f"{1e9 * cut.told_holes[0].volume:.2f} mm3"
             '100.53 mm3'
         """
         new = of_holes.checked(holes, self.mean_diameter, self.holes)
