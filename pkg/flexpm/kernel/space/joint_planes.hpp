@@ -47,7 +47,8 @@ struct CutCells {
     std::vector<int> gone;  ///< cells that holes have taken out, in order
 };
 
-/// Cut cells along joints, then along the facets of holes, and then along notches. A piece has at least 2 % of the mean volume and
+/// Cut cells along joints, then along the facets of holes, and then along notches.
+/// A piece has at least 2 % of the mean volume and
 /// 15 % of the mean diameter as its depth, and no edge below 5 degrees beside a joint. Faces of
 /// joint i have the number i. Flanks of notch i have the wall index walls + i, faces on the wall of
 /// hole i have first_hole_wall() + i. Parts of a cell beyond the edges of a facet stay cells of
