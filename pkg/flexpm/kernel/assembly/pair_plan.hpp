@@ -48,10 +48,9 @@ struct GrainBody {
 struct PairLoad {
     std::vector<int> nodes;
     std::vector<Vector> forces;  ///< of each of the nodes [N]
-    /// Of the nodes, those of faces that have never had a contact: masses do not bear them yet.
-    std::vector<int> outer;
-    Vector force;   ///< [N]
-    Vector moment;  ///< [N m]
+    std::vector<int> faces;      ///< that are pressed, as in BodyFaces
+    Vector force;                ///< [N]
+    Vector moment;               ///< [N m]
 };
 
 struct PairWork {

@@ -32,7 +32,7 @@ struct SideOfPair {
     bool rigid;
     std::vector<PressedFace> faces;
     std::vector<int> nodes;        ///< corners of the faces
-    std::vector<int> outer;        ///< those of faces that have never had a contact
+    std::vector<int> pressed;      ///< numbers of the faces in BodyFaces
     std::vector<Vector> corners;   ///< from the centre [m]
     std::vector<Vector> pressure;  ///< [N]
     std::vector<Modes> friction;   ///< forces for loads of 1
@@ -116,16 +116,16 @@ void find_side(const SolidState& s, const GrainBody& body, int which, int faces_
     side.rigid = s.grains.is_rigid(body.grain);
     side.faces.clear();
     side.nodes.clear();
-    side.outer.clear();
+    side.pressed.clear();
     side.corners.clear();
     double sum = 0.0;
     for (const FaceForce& on : forces) {
         if ((on.face < faces_before) != (which == 0)) continue;
         const int face = faces.first[body.grain] + on.face - (which == 0 ? 0 : faces_before);
         const int first = static_cast<int>(side.nodes.size());
+        side.pressed.push_back(face);
         for (int k = faces.first_corner[face]; k < faces.first_corner[face + 1]; ++k) {
             side.nodes.push_back(faces.corners[k]);
-            if (faces.contact[face] < 0) side.outer.push_back(faces.corners[k]);
             side.corners.push_back(present_position(s, body.grain, faces.corners[k]) - body.centre);
         }
         const double size = norm(on.force);
@@ -216,7 +216,7 @@ void write_load(const SideOfPair& side, Vector at, Vector friction, double momen
         to.moment = to.moment + cross(at - side.centre, rubbing) + sign * moment * normal;
     }
     to.nodes = side.nodes;
-    to.outer = side.outer;
+    to.faces = side.pressed;
     for (std::size_t i = 0; i < side.nodes.size(); ++i) {
         Vector force = side.pressure[i];
         for (int mode = 0; mode < modes; ++mode)
@@ -228,7 +228,7 @@ void write_load(const SideOfPair& side, Vector at, Vector friction, double momen
 void clear(PairLoad& load)
 {
     load.nodes.clear();
-    load.outer.clear();
+    load.faces.clear();
     load.forces.clear();
     load.force = load.moment = {};
 }

@@ -4,12 +4,15 @@
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/fem/tetrahedron.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
+#include <flexpm/kernel/space/overlap.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace flexpm {
 
@@ -120,34 +123,85 @@ void add_touch(const SolidState& s, const Plate& plate, int index, SolidBound& b
     bound.turn[grain] += r * r * arm * all;
 }
 
-/// Stiffness that pairs add to a grain for a pressed area: to each node that they press, or to the
-/// centre of a rigid grain and to its turn.
+/// Stiffness that a pair adds to a grain [N/m], and to the turn of a rigid one [N m].
 struct PairStiffness {
-    double node = 0.0;  ///< [N/m]
-    double turn = 0.0;  ///< [N m]
+    std::vector<std::pair<int, double>> nodes;  ///< the centre of a rigid grain
+    double turn = 0.0;
 };
 
+/// Stiffness that the bond of a face gave to one of its corners, over the area of the face [Pa/m].
+double bonded_stiffness(const SolidState& s, int contact, int side, int node)
+{
+    const FaceContacts& c = s.contacts;
+    const LawParameters& law = c.law_of(contact);
+    double sum = 0.0, area = 0.0;
+    for (int p = 0; p < c.points_of(contact); ++p) {
+        area += c.area(contact, p);
+        const double sides = point_side(s, contact, p, 0).size + point_side(s, contact, p, 1).size;
+        for (int k = 0; k < c.corners_of(contact); ++k)
+            if (c.node(contact, side, k) == node)
+                sum += std::fabs(c.share(contact, p, k)) * c.area(contact, p) * sides;
+    }
+    return std::max(law.normal_stiffness, law.shear_stiffness) * sum / area;
+}
+
+/// Largest stiffness of each corner of a face against a pressure in one place, where others follow:
+/// the product of its share in a force and of the sum of all shares, at the worst corner [-].
+std::vector<double> largest_shares(const std::vector<Vector>& corners)
+{
+    const auto count = static_cast<int>(corners.size());
+    const Vector normal = InSpace::plane_of(corners.data(), count).normal;
+    std::vector<double> largest(count, 0.0);
+    for (const Vector& place : corners) {
+        std::vector<Vector> forces(count);
+        InSpace::spread(corners.data(), count, { 0, normal, place }, forces.data());
+        double sum = 0.0;
+        for (const Vector& force : forces)
+            sum += std::fabs(dot(force, normal));
+        for (int k = 0; k < count; ++k)
+            largest[k] = std::max(largest[k], sum * std::fabs(dot(forces[k], normal)));
+    }
+    return largest;
+}
+
+/// What masses do not bear yet of a pressed area: they bear contacts that have ended, but not that a
+/// corner that stands for little of its face has as much of a pair as any other.
 PairStiffness stiffness_of(const SolidState& s, int number, int side, double area)
 {
     const PairContact& pair = s.pairs[number];
+    const BodyFaces& faces = s.plan.pairs.faces;
     const LawParameters& law = s.contacts.laws[pair.law];
-    const double all = area * std::max(law.normal_stiffness, law.shear_stiffness);
-    const int grain = pair.grains[side];
-    // the share of a corner in a force near it is up to 3/4, on both sides
-    if (!s.grains.is_rigid(grain)) return { 1.5 * all, 0.0 };
-    const double r = s.grains.radius[grain];
-    const double arm = norm(pair.place - s.grains.position(s.grains.centre(grain))) / r;
-    return { (2.0 + arm) * all, r * r * arm * (2.0 + arm) * all };
-}
-
-/// Nodes of a side whose masses do not bear a pair yet, as they bear contacts that have ended; the
-/// centre of a rigid grain.
-std::vector<int> pair_nodes(const SolidState& s, int number, int side)
-{
-    const int grain = s.pairs[number].grains[side];
-    const std::vector<int>& outer = s.plan.pairs.pairs[number].loads[side].outer;
-    if (outer.empty() || !s.grains.is_rigid(grain)) return outer;
-    return { s.grains.centre(grain) };
+    const double stiffness = std::max(law.normal_stiffness, law.shear_stiffness);
+    const int grain = pair.grains[side], centre = s.grains.centre(grain);
+    PairStiffness found;
+    for (int face : s.plan.pairs.pairs[number].loads[side].faces) {
+        const int contact = faces.contact[face];
+        if (s.grains.is_rigid(grain)) {
+            if (contact >= 0) continue;
+            const double r = s.grains.radius[grain];
+            const double arm = norm(pair.place - s.grains.position(centre)) / r;
+            found.nodes.assign(1, { centre, (2.0 + arm) * stiffness * area });
+            found.turn = r * r * arm * found.nodes[0].second;
+            continue;
+        }
+        const std::vector<int> nodes(faces.corners.begin() + faces.first_corner[face],
+            faces.corners.begin() + faces.first_corner[face + 1]);
+        std::vector<Vector> corners;
+        for (int node : nodes)
+            corners.push_back(
+                space_vector(s.grains.reference, node) - space_vector(s.grains.reference, centre));
+        const std::vector<double> shares = largest_shares(corners);
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            // both sides give way, and friction acts at the same corners
+            double more = 3.0 * shares[k] * stiffness;
+            if (contact >= 0) {
+                const int of = s.contacts.pairs[contact][0] == grain ? 0 : 1;
+                more -= bonded_stiffness(s, contact, of, nodes[k]);
+            }
+            if (more > 0.0) found.nodes.emplace_back(nodes[k], more * area);
+        }
+    }
+    return found;
 }
 
 /// Pairs by the areas that masses have been raised for.
@@ -158,11 +212,10 @@ void add_pairs(const SolidState& s, SolidBound& bound)
     for (std::size_t i = 0; i < s.pairs.size(); ++i) {
         for (int side = 0; side < 2; ++side) {
             const auto number = static_cast<int>(i);
-            const PairStiffness k = stiffness_of(s, number, side, s.pairs[i].mass_area);
-            const std::vector<int> nodes = pair_nodes(s, number, side);
-            for (int node : nodes)
-                bound.node[s.grains.scalar_index(node)] += k.node;
-            if (s.is_rigid() && !nodes.empty()) bound.turn[s.pairs[i].grains[side]] += k.turn;
+            const PairStiffness found = stiffness_of(s, number, side, s.pairs[i].mass_area);
+            for (const auto& [node, stiffness] : found.nodes)
+                bound.node[s.grains.scalar_index(node)] += stiffness;
+            if (found.turn > 0.0) bound.turn[s.pairs[i].grains[side]] += found.turn;
         }
     }
 }
@@ -306,11 +359,10 @@ bool bear_pairs(SolidState& s, double damping, double dt)
         pair.mass_area += more;
         for (int side = 0; side < 2 && factor > 0.0; ++side) {
             const auto number = static_cast<int>(i);
-            const PairStiffness k = stiffness_of(s, number, side, more);
-            const std::vector<int> nodes = pair_nodes(s, number, side);
-            for (int node : nodes)
-                add_mass(s, node, factor * k.node);
-            if (s.is_rigid() && !nodes.empty()) add_inertia(s, pair.grains[side], factor * k.turn);
+            const PairStiffness found = stiffness_of(s, number, side, more);
+            for (const auto& [node, stiffness] : found.nodes)
+                add_mass(s, node, factor * stiffness);
+            if (found.turn > 0.0) add_inertia(s, pair.grains[side], factor * found.turn);
         }
     }
     return any;
