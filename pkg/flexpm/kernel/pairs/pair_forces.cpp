@@ -385,4 +385,21 @@ void add_pair_forces(SolidState& s, int block)
     }
 }
 
+std::vector<double> largest_shares(const std::vector<Vector>& corners)
+{
+    const auto count = static_cast<int>(corners.size());
+    const Vector normal = InSpace::plane_of(corners.data(), count).normal;
+    std::vector<double> largest(count, 0.0);
+    for (const Vector& place : corners) {
+        std::vector<Vector> forces(count);
+        InSpace::spread(corners.data(), count, { 0, normal, place }, forces.data());
+        double sum = 0.0;
+        for (const Vector& force : forces)
+            sum += std::fabs(dot(force, normal));
+        for (int k = 0; k < count; ++k)
+            largest[k] = std::max(largest[k], sum * std::fabs(dot(forces[k], normal)));
+    }
+    return largest;
+}
+
 }  // namespace flexpm

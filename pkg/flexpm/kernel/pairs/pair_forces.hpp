@@ -5,6 +5,8 @@
 
 #include <flexpm/kernel/assembly/solid_state.hpp>
 
+#include <vector>
+
 namespace flexpm {
 
 /// Move the bodies of a thread's share of the grains in pairs to where these are now.
@@ -26,5 +28,9 @@ void add_loads_of_pairs(const SolidState& s, double* forces);
 /// Add the loads of pairs to the nodes of a block of grains, or to the wrench of a rigid grain, in the
 /// order of pairs.
 void add_pair_forces(SolidState& s, int block);
+
+/// Largest stiffness of each corner of a face against a pressure in one place, where others follow:
+/// the product of its share in a force and of the sum of all shares, at the worst corner [-].
+std::vector<double> largest_shares(const std::vector<Vector>& corners);
 
 }  // namespace flexpm

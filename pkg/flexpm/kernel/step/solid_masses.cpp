@@ -3,8 +3,8 @@
 
 #include <flexpm/kernel/core/require.hpp>
 #include <flexpm/kernel/fem/tetrahedron.hpp>
+#include <flexpm/kernel/pairs/pair_forces.hpp>
 #include <flexpm/kernel/parts/solid_plates.hpp>
-#include <flexpm/kernel/space/overlap.hpp>
 #include <flexpm/kernel/space_lanes/solid_bodies.hpp>
 #include <flexpm/kernel/space_lanes/tetrahedron_forces.hpp>
 #include <flexpm/kernel/step/mass_scaling.hpp>
@@ -143,25 +143,6 @@ double bonded_stiffness(const SolidState& s, int contact, int side, int node)
                 sum += std::fabs(c.share(contact, p, k)) * c.area(contact, p) * sides;
     }
     return std::max(law.normal_stiffness, law.shear_stiffness) * sum / area;
-}
-
-/// Largest stiffness of each corner of a face against a pressure in one place, where others follow:
-/// the product of its share in a force and of the sum of all shares, at the worst corner [-].
-std::vector<double> largest_shares(const std::vector<Vector>& corners)
-{
-    const auto count = static_cast<int>(corners.size());
-    const Vector normal = InSpace::plane_of(corners.data(), count).normal;
-    std::vector<double> largest(count, 0.0);
-    for (const Vector& place : corners) {
-        std::vector<Vector> forces(count);
-        InSpace::spread(corners.data(), count, { 0, normal, place }, forces.data());
-        double sum = 0.0;
-        for (const Vector& force : forces)
-            sum += std::fabs(dot(force, normal));
-        for (int k = 0; k < count; ++k)
-            largest[k] = std::max(largest[k], sum * std::fabs(dot(forces[k], normal)));
-    }
-    return largest;
 }
 
 /// What masses do not bear yet of a pressed area: they bear contacts that have ended, but not that a
