@@ -28,7 +28,7 @@ def test_options_and_calls_that_ask_for_a_feature_exist():
     text = " ".join(ASKED)
     assert set(re.findall(r"--[\w-]+", text)) <= options
     calls = re.findall(r"(\w+)\.(\w+)", text)
-    assert len(calls) >= 8
+    assert len(calls) >= 6
     assert all(hasattr(getattr(flexpm, name), call) for name, call in calls)
     assert set(OF_THE_PLANE) <= set(FEATURES)
 

@@ -14,7 +14,7 @@ import flexpm
 from flexpm import Specimen
 from flexpm.cli import main as cli
 from flexpm.errors import InputError
-from flexpm.materials.interface import KEYS, Interface
+from flexpm.materials.interface import FACTOR_KEYS, Interface
 from flexpm.materials.material import Material
 from flexpm.results.result import Result
 from flexpm.results.vtu import read_state
@@ -107,7 +107,7 @@ def test_two_layers_part_at_the_strength_of_their_pair(model):
 @pytest.mark.parametrize("model", MODELS)
 def test_factors_of_one_and_equal_minerals_leave_all_bits(model):
     mixed, _ = cubes(2, 4)
-    ones = dict.fromkeys([key for key in KEYS if key != "softening"], 1.0)
+    ones = dict.fromkeys(FACTOR_KEYS, 1.0)
     same = Interface(("hard", "soft"), factors=ones)
     alike = {key: value for key, value in BASE.items() if key != "mineral"}
     twins = [{"name": name, "fraction": 0.5} for name in ("soft", "hard")]

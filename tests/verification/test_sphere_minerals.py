@@ -10,7 +10,7 @@ import yade
 
 import flexpm
 from flexpm.materials import mixing
-from flexpm.materials.interface import KEYS, Interface
+from flexpm.materials.interface import FACTOR_KEYS, Interface
 from flexpm.materials.material import Material
 
 MODELS = ["jcfpm", "cohfrict"]
@@ -126,8 +126,7 @@ def test_a_pair_that_is_a_thousand_times_as_strong_never_cracks(model, tmp_path)
 @pytest.mark.parametrize("model", MODELS)
 def test_factors_of_one_and_a_rock_of_one_mineral_leave_all_bits(model):
     specimen = flexpm.Specimen.rectangle(0.012, 0.016, THICKNESS, seed=3)
-    keys = [key for key in KEYS if key != "softening"]
-    ones = Interface(("mica", "quartz"), factors=dict.fromkeys(keys, 1.0))
+    ones = Interface(("mica", "quartz"), factors=dict.fromkeys(FACTOR_KEYS, 1.0))
     alike = {key: value for key, value in BASE.items() if key != "mineral"}
     single = alike | {"mineral": [{"name": "quartz", "fraction": 1.0}]}
     twins = [{"name": name, "fraction": 0.5} for name in ("quartz", "mica")]

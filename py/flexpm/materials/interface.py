@@ -21,18 +21,12 @@ from .keys import checked as checked_value
 
 #: Keys of a contact's law that an elastic set has.
 _ELASTIC = ("normal_stiffness", "shear_ratio")
+#: Keys that may have a factor: not words, and not keys that the rule of mixing may lack.
+FACTOR_KEYS = (*_ELASTIC, *("tensile_strength", "cohesion", "friction"), *ENERGY_KEYS)
 #: All keys of a contact's law; the others are of the grains.
-KEYS = (
-    *_ELASTIC,
-    *("tensile_strength", "cohesion", "friction"),
-    *ENERGY_KEYS,
-    *RESIDUAL_KEYS,
-    "softening",
-)
+KEYS = (*FACTOR_KEYS, *RESIDUAL_KEYS, "softening")
 #: Fracture energy of the mode of each strength.
 ENERGY_OF = dict(zip(("tensile_strength", "cohesion"), ENERGY_KEYS, strict=True))
-#: Keys without a factor: words, and keys that the rule of mixing may not have.
-_WITHOUT_FACTOR = ("softening", *RESIDUAL_KEYS)
 _FACTOR = Bounds(above=0.0, at_least=1e-12, at_most=1e12)
 #: Begins the key of a value on the command line.
 _PREFIX = "interface."
@@ -56,7 +50,7 @@ class Interface:
         for key in (*self.values, *self.factors):
             require_known(f"{where} key", key, list(KEYS))
         for key in self.factors:
-            if key in _WITHOUT_FACTOR:
+            if key not in FACTOR_KEYS:
                 raise InputError(f"{where} factor.{key}, must not be given; give {key} itself")
             if key in self.values:
                 raise InputError(

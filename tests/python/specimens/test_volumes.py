@@ -307,7 +307,7 @@ def test_boundaries_by_which_a_watershed_divides_a_phase_are_told(
     made_of = json.loads((tmp_path / "made" / "specimen.json").read_text())["volume"]
     walls = 2 * 8 * (8 + off)
     assert made_of["divided_share"] == pytest.approx(8 * common / (8 * common + walls), rel=1e-12)
-    assert ("divide regions of a label" in capsys.readouterr().out) == told
+    assert ("divides regions of one label" in capsys.readouterr().out) == told
 
 
 def voxels_inside(section, diameter):

@@ -208,25 +208,33 @@ void forget_pairs(SolidState& s)
         pair.mass_area = 0.0;
 }
 
-/// Add to the mass of a node; the kinetic energy that this adds counts as initial energy.
+/// Add to the mass of a node. It keeps its momentum; the kinetic energy that it loses is damped.
 void add_mass(SolidState& s, int node, double more)
 {
     double& inverse = s.grains.inverse_mass[s.grains.scalar_index(node)];
     if (inverse == 0.0) return;
-    inverse = 1.0 / (1.0 / inverse + more);
-    for (int i = node; i < node + 3; ++i)
-        if (!s.grains.prescribed[i])
-            s.ledger.initial += 0.5 * more * s.grains.velocity[i] * s.grains.velocity[i];
+    const double before = 1.0 / inverse, kept = before / (before + more);
+    inverse = 1.0 / (before + more);
+    for (int i = node; i < node + 3; ++i) {
+        if (s.grains.prescribed[i]) continue;
+        double& velocity = s.grains.velocity[i];
+        s.ledger.damping_work[0] += 0.5 * before * (1.0 - kept) * velocity * velocity;
+        velocity *= kept;
+    }
 }
 
-/// The same of the inertia of a rigid grain about any axis.
+/// The same of the inertia of a rigid grain, which is that of a sphere where masses are scaled.
 void add_inertia(SolidState& s, int grain, double more)
 {
     RigidBody& body = s.bodies[grain];
+    const double before = body.inertia.xx, kept = before / (before + more);
     body.inertia.xx += more;
     body.inertia.yy += more;
     body.inertia.zz += more;
-    if (!body.spin_held) s.ledger.initial += 0.5 * more * dot(body.spin, body.spin);
+    if (!body.spin_held) {
+        s.ledger.damping_work[0] += 0.5 * before * (1.0 - kept) * dot(body.spin, body.spin);
+        body.spin = kept * body.spin;
+    }
     set_spin(s, grain, body.spin, body.spin_held);
 }
 
