@@ -15,7 +15,7 @@ from yade import wrapper
 import flexpm
 from flexpm.errors import InputError
 from flexpm.materials import mixing
-from flexpm.materials.interface import _WITHOUT_FACTOR, KEYS
+from flexpm.materials.interface import FACTOR_KEYS
 from flexpm.materials.material import Material
 from flexpm.materials.mineral import Mineral
 from flexpm.report import maps
@@ -273,7 +273,7 @@ def test_a_study_takes_keys_of_pairs(tmp_path):
 
 @given(
     st.dictionaries(
-        st.sampled_from([key for key in KEYS if key not in _WITHOUT_FACTOR]),
+        st.sampled_from(FACTOR_KEYS),
         st.floats(0.9, 1.1),
         max_size=4,
     ),

@@ -5,17 +5,20 @@
 #include <flexpm/kernel/geometry/overlap.hpp>
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace flexpm {
 
-/// Faces of all grains: those of contacts, and those on the surface, whose triangles are joined where
-/// they lie in one plane.
+/// Faces of all grains: of contacts and of triangles of the surface, joined where they lie in one
+/// plane.
 struct BodyFaces {
-    std::vector<int> first;         ///< of each grain, and the end
-    std::vector<int> contact;       ///< of each face; -1: on the surface
-    std::vector<int> first_corner;  ///< of each face, in `corners`, and the end
-    std::vector<int> corners;       ///< nodes, counter-clockwise as seen from outside
+    std::vector<int> first;           ///< of each grain, and the end
+    std::vector<std::uint8_t> outer;  ///< of each face: 1 if a part of it is on the surface
+    std::vector<int> first_contact;   ///< of each face, in `contacts`, and the end
+    std::vector<int> contacts;        ///< that lie on the face
+    std::vector<int> first_corner;    ///< of each face, in `corners`, and the end
+    std::vector<int> corners;         ///< nodes, counter-clockwise as seen from outside
 };
 
 /// A corner of a body, where three of its planes meet. It exists unless a near plane cuts it off.

@@ -8,76 +8,119 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace flexpm {
 
 namespace {
 
-using Triangle = std::array<int, 3>;
+/// Nodes around a face, counter-clockwise as seen from outside.
+using Loop = std::vector<int>;
 
-/// A face on its way into the list.
+/// A face on its way into the list: of a contact, of a triangle of the surface, or of several of them
+/// that lie in one plane.
 struct Face {
-    int contact;
-    std::vector<int> corners;
+    Loop corners;
+    std::vector<int> contacts;
+    bool outer;  ///< a part of it is on the surface
 };
 
-/// Corners around the triangles of one face: edges that no other of the triangles has.
-std::vector<int> rim_of(const std::vector<Triangle>& triangles)
+/// Edges of loops that no other of them has, by their first node; empty if they are not one loop.
+std::map<int, int> rim_of(const std::vector<const Loop*>& loops)
 {
+    std::set<std::array<int, 2>> edges;
+    for (const Loop* loop : loops)
+        for (std::size_t k = 0; k < loop->size(); ++k)
+            edges.insert({ (*loop)[k], (*loop)[(k + 1) % loop->size()] });
     std::map<int, int> next;
-    const auto has = [&](int from, int to) {
-        return std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
-            return (t[0] == from && t[1] == to) || (t[1] == from && t[2] == to)
-                || (t[2] == from && t[0] == to);
-        });
-    };
-    for (const Triangle& t : triangles)
-        for (int k = 0; k < 3; ++k)
-            if (!has(t[(k + 1) % 3], t[k])) next[t[k]] = t[(k + 1) % 3];
-    std::vector<int> rim { next.begin()->first };
-    for (int at = next.begin()->second; at != rim.front() && rim.size() < next.size();
-         at = next[at])
-        rim.push_back(at);
-    return rim;
+    for (const auto& [from, to] : edges)
+        if (edges.count({ to, from }) == 0 && !next.emplace(from, to).second) return {};
+    return next;
 }
 
-/// Whether two triangles have an edge in common.
-bool are_joined(const Triangle& a, const Triangle& b)
+/// The face that several faces make together; without corners if their rim is not one loop.
+Face joined(const std::vector<Face>& faces, const std::vector<int>& members)
 {
-    int common = 0;
-    for (int node : a)
-        common += static_cast<int>(std::count(b.begin(), b.end(), node));
-    return common == 2;
+    Face whole { {}, {}, false };
+    std::vector<const Loop*> loops;
+    for (int i : members) {
+        loops.push_back(&faces[i].corners);
+        whole.contacts.insert(
+            whole.contacts.end(), faces[i].contacts.begin(), faces[i].contacts.end());
+        whole.outer |= faces[i].outer;
+    }
+    const std::map<int, int> next = rim_of(loops);
+    if (next.empty()) return whole;
+    int at = next.begin()->first;
+    do {
+        whole.corners.push_back(at);
+        at = next.at(at);
+    } while (at != whole.corners.front() && whole.corners.size() < next.size());
+    if (whole.corners.size() < next.size() || at != whole.corners.front()) whole.corners.clear();
+    return whole;
 }
 
-Vector normal_of(const SolidState& s, const Triangle& t)
+Vector normal_of(const SolidState& s, const Loop& corners)
 {
-    const auto at = [&](int k) { return space_vector(s.grains.reference, t[k]); };
-    const Vector twice = cross(at(1) - at(0), at(2) - at(0));
+    const Vector origin = space_vector(s.grains.reference, corners[0]);
+    Vector twice;
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+        twice = twice
+            + cross(space_vector(s.grains.reference, corners[k]) - origin,
+                space_vector(s.grains.reference, corners[k + 1]) - origin);
     return (1.0 / norm(twice)) * twice;
 }
 
-/// Triangles of the surface, which come face by face, as faces.
-void add_surface(const SolidState& s, std::vector<std::vector<Face>>& of_grain)
+/// Whether two loops have an edge in common.
+bool are_neighbours(const Loop& a, const Loop& b)
 {
-    constexpr double flat = 1e-9;  // sine of the angle between triangles of one plane
-    const SurfaceTriangles& surface = s.surface;
-    std::vector<Triangle> face;
-    const auto finish = [&](std::size_t last) {
-        if (!face.empty()) of_grain[surface.grain[last]].push_back({ -1, rim_of(face) });
-        face.clear();
+    const auto has = [&](int from, int to) {
+        for (std::size_t k = 0; k < b.size(); ++k)
+            if (b[k] == from && b[(k + 1) % b.size()] == to) return true;
+        return false;
     };
-    for (std::size_t t = 0; t < surface.grain.size(); ++t) {
-        const Triangle& own = surface.nodes[t];
-        const bool goes_on = !face.empty() && surface.grain[t] == surface.grain[t - 1]
-            && std::any_of(face.begin(), face.end(), [&](const Triangle& of) {
-                   return are_joined(of, own)
-                       && norm(cross(normal_of(s, of), normal_of(s, own))) < flat;
-               });
-        if (!goes_on && t > 0) finish(t - 1);
-        face.push_back(own);
+    for (std::size_t k = 0; k < a.size(); ++k)
+        if (has(a[(k + 1) % a.size()], a[k])) return true;
+    return false;
+}
+
+/// Make one face of those of a grain that go on from each other in one plane, as the triangles of the
+/// surface do and the contacts on a joint: their planes would differ by round-off or by a little
+/// deformation, which decides nothing then.
+std::vector<Face> merged(const SolidState& s, std::vector<Face> faces)
+{
+    constexpr double flat = 1e-6;  // sine of the angle between faces of one plane
+    const auto count = static_cast<int>(faces.size());
+    std::vector<Vector> normals;
+    for (const Face& face : faces)
+        normals.push_back(normal_of(s, face.corners));
+    std::vector<Face> result;
+    std::vector<bool> done(count, false);
+    for (int first = 0; first < count; ++first) {
+        if (done[first]) continue;
+        std::vector<int> members { first };
+        done[first] = true;
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            const int i = members[k];
+            for (int j = first + 1; j < count; ++j) {
+                if (done[j] || dot(normals[i], normals[j]) < 0.0
+                    || norm(cross(normals[i], normals[j])) > flat
+                    || !are_neighbours(faces[i].corners, faces[j].corners))
+                    continue;
+                members.push_back(j);
+                done[j] = true;
+            }
+        }
+        Face whole = members.size() > 1 ? joined(faces, members) : Face { {}, {}, false };
+        if (!whole.corners.empty())
+            result.push_back(std::move(whole));
+        else
+            for (int i : members)
+                result.push_back(faces[i]);
     }
-    if (!surface.grain.empty()) finish(surface.grain.size() - 1);
+    return result;
 }
 
 /// Corners of a face now, from a centre.
@@ -110,31 +153,39 @@ BodyFaces faces_of(const SolidState& s)
     std::vector<std::vector<Face>> of_grain(s.grains.count);
     for (int contact = 0; contact < c.count; ++contact) {
         for (int side = 0; side < 2; ++side) {
-            Face face { contact, {} };
+            Loop corners;
             for (int k = 0; k < c.corners_of(contact); ++k)
-                face.corners.push_back(c.node(contact, side, k));
+                corners.push_back(c.node(contact, side, k));
             // corners are counter-clockwise as seen from the second grain
-            if (side == 1) std::reverse(face.corners.begin(), face.corners.end());
-            of_grain[c.pairs[contact][side]].push_back(face);
+            if (side == 1) std::reverse(corners.begin(), corners.end());
+            of_grain[c.pairs[contact][side]].push_back({ corners, { contact }, false });
         }
     }
-    add_surface(s, of_grain);
-    BodyFaces faces { { 0 }, {}, { 0 }, {} };
-    for (const std::vector<Face>& list : of_grain) {
-        for (const Face& face : list) {
-            faces.contact.push_back(face.contact);
+    for (std::size_t t = 0; t < s.surface.grain.size(); ++t) {
+        const auto& nodes = s.surface.nodes[t];
+        of_grain[s.surface.grain[t]].push_back({ { nodes.begin(), nodes.end() }, {}, true });
+    }
+    BodyFaces faces;
+    faces.first = faces.first_contact = faces.first_corner = { 0 };
+    for (std::vector<Face>& list : of_grain) {
+        for (const Face& face : merged(s, std::move(list))) {
+            faces.outer.push_back(face.outer);
+            faces.contacts.insert(faces.contacts.end(), face.contacts.begin(), face.contacts.end());
+            faces.first_contact.push_back(static_cast<int>(faces.contacts.size()));
             faces.corners.insert(faces.corners.end(), face.corners.begin(), face.corners.end());
             faces.first_corner.push_back(static_cast<int>(faces.corners.size()));
         }
-        faces.first.push_back(static_cast<int>(faces.contact.size()));
+        faces.first.push_back(static_cast<int>(faces.outer.size()));
     }
     return faces;
 }
 
 bool is_free(const SolidState& s, const BodyFaces& faces, int face)
 {
-    const int contact = faces.contact[face];
-    return contact < 0 || s.contacts.has_ended(contact);
+    const int first = faces.first_contact[face], end = faces.first_contact[face + 1];
+    return faces.outer[face]
+        || std::any_of(faces.contacts.begin() + first, faces.contacts.begin() + end,
+            [&](int contact) { return s.contacts.has_ended(contact); });
 }
 
 GrainBody body_of(const SolidState& s, const BodyFaces& faces, int grain)

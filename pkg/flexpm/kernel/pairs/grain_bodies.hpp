@@ -7,11 +7,12 @@
 
 namespace flexpm {
 
-/// Faces of all grains.
+/// Faces of all grains. Contacts and triangles of the surface that go on from each other in one plane
+/// are one face.
 BodyFaces faces_of(const SolidState& s);
 
-/// Whether a face can be pressed: it is on the surface, or its contact has ended. Other faces lie on
-/// those of a neighbour, and only bound the body.
+/// Whether a face can be pressed: a part of it is on the surface, or one of its contacts has ended.
+/// Other faces lie on those of neighbours, and only bound the body.
 bool is_free(const SolidState& s, const BodyFaces& faces, int face);
 
 /// Body of a grain where the grain is now.

@@ -129,20 +129,32 @@ struct PairStiffness {
     double turn = 0.0;
 };
 
-/// Stiffness that the bond of a face gave to one of its corners, over the area of the face [Pa/m].
-double bonded_stiffness(const SolidState& s, int contact, int side, int node)
+/// Stiffness that the bonds of a face gave to each of its corners, over their area [Pa/m].
+std::vector<double> bonded_stiffness(
+    const SolidState& s, int grain, const std::vector<int>& contacts, const std::vector<int>& nodes)
 {
     const FaceContacts& c = s.contacts;
-    const LawParameters& law = c.law_of(contact);
-    double sum = 0.0, area = 0.0;
-    for (int p = 0; p < c.points_of(contact); ++p) {
-        area += c.area(contact, p);
-        const double sides = point_side(s, contact, p, 0).size + point_side(s, contact, p, 1).size;
-        for (int k = 0; k < c.corners_of(contact); ++k)
-            if (c.node(contact, side, k) == node)
-                sum += std::fabs(c.share(contact, p, k)) * c.area(contact, p) * sides;
+    std::vector<double> sums(nodes.size(), 0.0);
+    double area = 0.0;
+    for (int contact : contacts) {
+        const LawParameters& law = c.law_of(contact);
+        const double stiffness = std::max(law.normal_stiffness, law.shear_stiffness);
+        const int side = c.pairs[contact][0] == grain ? 0 : 1;
+        for (int p = 0; p < c.points_of(contact); ++p) {
+            area += c.area(contact, p);
+            const double sides =
+                point_side(s, contact, p, 0).size + point_side(s, contact, p, 1).size;
+            for (int k = 0; k < c.corners_of(contact); ++k) {
+                const auto at = std::find(nodes.begin(), nodes.end(), c.node(contact, side, k));
+                if (at != nodes.end())
+                    sums[at - nodes.begin()] +=
+                        stiffness * std::fabs(c.share(contact, p, k)) * c.area(contact, p) * sides;
+            }
+        }
     }
-    return std::max(law.normal_stiffness, law.shear_stiffness) * sum / area;
+    for (double& sum : sums)
+        sum = area > 0.0 ? sum / area : 0.0;
+    return sums;
 }
 
 /// What masses do not bear yet of a pressed area: they bear contacts that have ended, but not that a
@@ -156,9 +168,10 @@ PairStiffness stiffness_of(const SolidState& s, int number, int side, double are
     const int grain = pair.grains[side], centre = s.grains.centre(grain);
     PairStiffness found;
     for (int face : s.plan.pairs.pairs[number].loads[side].faces) {
-        const int contact = faces.contact[face];
+        const std::vector<int> contacts(faces.contacts.begin() + faces.first_contact[face],
+            faces.contacts.begin() + faces.first_contact[face + 1]);
         if (s.grains.is_rigid(grain)) {
-            if (contact >= 0) continue;
+            if (!faces.outer[face]) continue;
             const double r = s.grains.radius[grain];
             const double arm = norm(pair.place - s.grains.position(centre)) / r;
             found.nodes.assign(1, { centre, (2.0 + arm) * stiffness * area });
@@ -172,13 +185,10 @@ PairStiffness stiffness_of(const SolidState& s, int number, int side, double are
             corners.push_back(
                 space_vector(s.grains.reference, node) - space_vector(s.grains.reference, centre));
         const std::vector<double> shares = largest_shares(corners);
+        const std::vector<double> bonded = bonded_stiffness(s, grain, contacts, nodes);
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             // both sides give way, and friction acts at the same corners
-            double more = 3.0 * shares[k] * stiffness;
-            if (contact >= 0) {
-                const int of = s.contacts.pairs[contact][0] == grain ? 0 : 1;
-                more -= bonded_stiffness(s, contact, of, nodes[k]);
-            }
+            const double more = 3.0 * shares[k] * stiffness - bonded[k];
             if (more > 0.0) found.nodes.emplace_back(nodes[k], more * area);
         }
     }
