@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from flexpm.results.joint_states import MEASURES
+
 Entry = dict[str, Any]
 
 
@@ -55,6 +57,21 @@ JOINT_CUT = table(
         "reason": entry("string", "Why not more of it is cut"),
     }
 )
+
+JOINT_STATE = {
+    **table(
+        {
+            "length": entry(
+                "number", "Of the contacts of the joint before the test, in 2D [m]", minimum=0
+            ),
+            "area": entry(
+                "number", "Of the contacts of the joint before the test, in 3D [m2]", minimum=0
+            ),
+            **{key: entry(["number", "null"], words) for key, words in MEASURES.items()},
+        }
+    ),
+    "required": [*MEASURES],
+}
 
 CALL = needed("call", "with") | {
     "properties": {
@@ -208,6 +225,7 @@ TABLES: Entry = {
         "joint_cuts": named(
             reference("joint_cut"), "What came of the lines of each joint, by its name"
         ),
+        "joint_states": named(reference("joint_state"), "State of each joint at the end, by name"),
         "networks": named(
             table(
                 {name: entry("number") for name in ("target", "generated", "cut", "asked", "drawn")}
@@ -232,6 +250,7 @@ TABLES: Entry = {
         "joint": JOINT,
         "interface": INTERFACE,
         "joint_cut": JOINT_CUT,
+        "joint_state": JOINT_STATE,
         "own_inputs": OWN_INPUTS,
         "loading": LOADING,
     },

@@ -316,7 +316,8 @@ def _describe(made: Specimen, folder: Path, mesh: str | None) -> None:
     picture = folder / "specimen.png"
     triangles = maps.mesh_triangles(made.meshes(mesh)) if mesh else None
     polygons = maps.cell_polygons(made.tessellation)
-    maps.specimen_picture(picture, polygons, triangles, caption, made.joint_lines())
+    joints, names = made.joint_lines(), made.spec.joint_names or ()
+    maps.specimen_picture(picture, polygons, triangles, caption, joints, names)
     files = [picture, folder / "specimen.json"]
     if made.spec.networks:
         from ..report.rose import rose_picture

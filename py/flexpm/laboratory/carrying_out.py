@@ -21,7 +21,6 @@ from ..results.result import Result
 from ..results.vtu import write_vtu
 from ..rigs.fitting import rig as rig_of
 from ..rigs.frames import FRAMES, FrameWriter, LastState, show_frames
-from ..rigs.outcome.folder import lines_in
 from ..rigs.rig import TestRig
 from ..rigs.solids.disc_rig import SolidDiscRig
 from ..rigs.solids.end_rig import EndRig
@@ -89,8 +88,7 @@ def carry_out(
         restore = start.restore if position.start else None
     result.resumed_at = checkpoint.resumed_at if checkpoint is not None else None
     if folder is not None:
-        state = result.snapshot
-        write_files(folder, result, *(() if state is None else lines_in(rig, state)))
+        write_files(folder, result)
         _write_others(folder, result, plan.output, rig)
     return result
 

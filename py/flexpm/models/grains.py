@@ -191,14 +191,37 @@ class Model:
             >>> state.fragments.grains.tolist()  # one fragment of all 44 grains
             [44]
         """
-        found: Table = {**self.solver.snapshot(), **self.of_snapshots}
-        return Snapshot(**found)
+        found: Table = self.solver.snapshot()
+        return Snapshot(**found, **self.of_snapshots(found["contact"]))
 
-    @property
-    def of_snapshots(self) -> Table:
-        """Data of snapshots besides the solver's arrays: minerals, and the source of stresses."""
+    def of_snapshots(self, contacts: IntArray) -> Table:
+        """Return the data of a snapshot besides the solver's arrays.
+
+        Args:
+            contacts: Index of each contact.
+
+        Returns:
+            Minerals, the source of stresses, and the joints of the contacts.
+        """
         source = OF_TRIANGLES if self.name == "flexible" else OF_GRAINS
-        return {"grain_mineral": self.minerals, "stress_source": source}
+        found: Table = {"grain_mineral": self.minerals, "stress_source": source}
+        joints, spec = self.specimen.edge_joints, self.specimen.spec
+        if joints is None:
+            return found
+        names = spec.joint_names or ()
+        # lines of excavations are rock; contacts that came later have no joint
+        with_law = np.array([*(name in spec.joints_with_law for name in names), False])
+        known = np.append(np.where(with_law[joints], joints, -1), -1)
+        rows = np.minimum(contacts, len(joints))
+        found |= {"contact_joint": known[rows], "joint_names": names}
+        return found | self._bonded_sizes(rows)
+
+    def _bonded_sizes(self, rows: IntArray) -> Table:
+        """Return the lengths of contacts when bonded, 0 for those that came later."""
+        assert isinstance(self.specimen, Specimen)
+        cells = self.specimen.tessellation
+        sides = np.diff(cells.vertices[cells.shared_edges[:, 2:]], axis=1)[:, 0]
+        return {"bonded_length": np.append(np.hypot(*sides.T), 0.0)[rows]}
 
     def describe_material(self) -> Table:
         """Return name and parameters of the material, with the area fraction of each mineral."""
@@ -254,7 +277,11 @@ class SolidModel(Model):
 
     def state_of(self, found: Table) -> SolidSnapshot:
         """Return a state of this 3D specimen, from its arrays."""
-        return snapshot_of(found, self.of_snapshots["stress_source"], self.minerals)
+        return snapshot_of(found, self.of_snapshots(np.arange(len(found["contact_grains"]))))
+
+    def _bonded_sizes(self, rows: IntArray) -> Table:
+        """Return nothing: the solver's arrays have the areas."""
+        return {}
 
 
 def _build_solid(

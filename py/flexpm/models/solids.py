@@ -58,21 +58,18 @@ def solver_of(specimen: SolidSpecimen, chosen: Material, model: str) -> wrapper.
     return solver
 
 
-def snapshot_of(found: Table, source: str, minerals: IntArray | None = None) -> SolidSnapshot:
+def snapshot_of(found: Table, others: Table) -> SolidSnapshot:
     """A state of a solid.
 
     Args:
         found: Its arrays, as `GrainSolver.snapshot` gives them.
-        minerals: Index of each grain's mineral, or None if all grains are alike.
-        source: Source of the stress of a tetrahedron: the tetrahedron or its grain.
+        others: Other data of the state: minerals, source of stresses, joints.
     """
     from ..results.solids.state import SolidSnapshot
 
     nodes = found.pop("corner_nodes")
     middle = found["reference"][nodes].mean(axis=1)
-    return SolidSnapshot(
-        **found, corner_reference=middle, grain_mineral=minerals, stress_source=source
-    )
+    return SolidSnapshot(**found, corner_reference=middle, **others)
 
 
 def _minerals(specimen: SolidSpecimen, chosen: Material, model: str) -> IntArray | None:

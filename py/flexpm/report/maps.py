@@ -25,6 +25,7 @@ from ..results.cracks import ERASED, SHEAR, TENSILE
 from ..results.fragments import Fragments
 from ..results.snapshot import Snapshot
 from ..text import label_of
+from .joint_colours import joint_colour, joint_handles
 from .style import COLOURS, CUT, MODE_NAMES, STYLE, can_be_drawn, save
 
 if TYPE_CHECKING:
@@ -39,8 +40,6 @@ MINERALS = ("#f2eee6", "#c9bfa8", "#9fb0bd", "#c7a6a0", "#a9b99a", "#8f8a80")
 _EDGE = "#6b6455"
 #: Plates and held nodes of a rig.
 _PART = "#3a5a78"
-#: Joints that were not cut open.
-_JOINT = "#8fae8b"
 #: Pairs of minerals that a legend names.
 _MOST_PAIRS = 6
 
@@ -51,6 +50,7 @@ def specimen_picture(
     mesh: tuple[FloatArray, IntArray] | None = None,
     caption: str = "",
     joints: Sequence[FloatArray] = (),
+    joint_names: Sequence[str] = (),
 ) -> None:
     """Plot the grains of a specimen.
 
@@ -60,13 +60,16 @@ def specimen_picture(
         mesh: Nodes (N, 2) [m] and triangles (M, 3) to plot in the grains.
         caption: Line above the map.
         joints: Ends (n, 2, 2) [m] of the contacts of each joint.
+        joint_names: Names of the joints, for a legend.
     """
     with rc_context(STYLE):
         figure, axes = map_figure(polygons)
         _draw_grains(axes, polygons)
         for number, ends in enumerate(joints):
-            colour = _FRAGMENTS[-1 - number % len(_FRAGMENTS)]
+            colour = joint_colour(number)
             axes.add_collection(LineCollection(1e3 * ends, colors=colour, linewidths=1.4))
+        cut = {k: name for k, name in enumerate(joint_names) if len(joints[k])}
+        _add_legend(figure, axes, joint_handles(cut), 2)
         if mesh is not None:
             nodes, triangles = (1e3 * np.asarray(mesh[0]), np.asarray(mesh[1]))
             lines = LineCollection(nodes[_unique_edges(triangles)], colors=_EDGE, linewidths=0.15)
@@ -97,11 +100,7 @@ def grain_picture(
         figure, axes = map_figure(polygons)
         _draw_grains(axes, polygons, tints)
         draw_scale_bar(axes)
-        handles = _mineral_handles(names)
-        if handles:
-            figure.set_figheight(figure.get_figheight() + 0.2 * len(handles))
-            place = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0)}
-            axes.legend(handles=handles, ncol=1, frameon=False, **place)
+        _add_legend(figure, axes, _mineral_handles(names), 1)
         axes.set_title(label_of(caption), fontsize=9.5, loc="left")
         save(figure, path)
 
@@ -111,10 +110,9 @@ def crack_picture(
     snapshot: Snapshot,
     caption: str = "",
     minerals: Sequence[str] = (),
-    notches: Sequence[int] = (),
+    notches: Sequence[str] = (),
     by_pair: Mapping[str, Mapping[str, int]] | None = None,
     parts: Sequence[Table] = (),
-    joints: Sequence[int] = (),
 ) -> None:
     """Plot the deformed grains with their cracks; each point colours its tributary length.
 
@@ -125,45 +123,33 @@ def crack_picture(
         snapshot: The state.
         caption: Line above the map.
         minerals: Names of the minerals, for the legend.
-        notches: Indices of contacts that were cut open before the test.
+        notches: Names of the joints that are cut open before the test.
         by_pair: Cracks of each pair of minerals by mode, for the legend.
         parts: Parts of a rig, with their faces.
-        joints: Indices of contacts of joints that were not cut open.
     """
     if not can_be_drawn(snapshot.positions):
         remove_earlier(path)
         return
     with rc_context(STYLE):
-        save(crack_figure(snapshot, caption, minerals, notches, by_pair, parts, joints), path)
+        save(crack_figure(snapshot, caption, minerals, notches, by_pair, parts), path)
 
 
 def crack_figure(
     snapshot: Snapshot,
     caption: str = "",
     minerals: Sequence[str] = (),
-    notches: Sequence[int] = (),
+    notches: Sequence[str] = (),
     by_pair: Mapping[str, Mapping[str, int]] | None = None,
     parts: Sequence[Table] = (),
-    joints: Sequence[int] = (),
 ) -> Figure:
     """Return the figure of `crack_picture`."""
     with rc_context(STYLE):
         figure, axes = map_figure([snapshot.positions])
         handles = draw_cracks(axes, snapshot)
-        handles += _draw_cut(axes, snapshot, joints, "joints")
-        handles += _draw_cut(axes, snapshot, notches, "notch") + _draw_parts(axes, parts)
+        handles += draw_joints(axes, snapshot, notches) + _draw_parts(axes, parts)
         handles += _mineral_handles(minerals)
         handles += _pair_handles(by_pair or {})
-        columns = 1 if by_pair else 2  # names of pairs are long
-        rows = math.ceil(len(handles) / columns)
-        figure.set_figheight(figure.get_figheight() + 0.2 * (rows - 1))
-        axes.legend(
-            handles=handles,
-            loc="upper center",
-            bbox_to_anchor=(0.5, 0.0),
-            ncol=columns,
-            frameon=False,
-        )
+        _add_legend(figure, axes, handles, 1 if by_pair else 2)  # names of pairs are long
         axes.set_title(label_of(caption), fontsize=9.5, loc="left")
     return figure
 
@@ -212,13 +198,44 @@ def _pair_handles(by_pair: Mapping[str, Mapping[str, int]]) -> list[Patch]:
     return [Patch(alpha=0.0, label=label_of(text)) for text in texts]
 
 
-def _draw_cut(axes: Axes, snapshot: Snapshot, contacts: Sequence[int], name: str) -> list[Line2D]:
-    """Plot cuts from before the test, joints below the cracks; return a handle if any exists."""
-    if not len(ends := snapshot.contact_ends[np.isin(snapshot.contact, contacts)]):
+def draw_joints(axes: Axes, snapshot: Snapshot, notches: Sequence[str] = ()) -> list[Line2D]:
+    """Plot joints below the cracks in their colours, and notches above; return their handles.
+
+    Args:
+        axes: Axes to plot in [mm].
+        snapshot: The state.
+        notches: Names of the joints that are cut open before the test.
+    """
+    if snapshot.contact_joint is None:
         return []
-    colour, order = (_JOINT, 1.4) if name == "joints" else (CUT, 1.6)
-    axes.add_collection(LineCollection(1e3 * ends, colors=colour, linewidths=2.2, zorder=order))
-    return [Line2D([], [], color=colour, lw=2.2, label=name)]
+    shown = {
+        number: name
+        for number, name in enumerate(snapshot.joint_names)
+        if np.any(snapshot.contact_joint == number)
+    }
+    for number, name in shown.items():
+        ends = 1e3 * snapshot.contact_ends[snapshot.contact_joint == number]
+        if name in notches:
+            look = {"colors": CUT, "linewidths": 2.2, "zorder": 1.6}
+        else:
+            look = {"colors": joint_colour(number), "linewidths": 3.0, "zorder": 1.4}
+        axes.add_collection(LineCollection(list(ends), **look))
+    handles = joint_handles({k: name for k, name in shown.items() if name not in notches})
+    if any(name in notches for name in shown.values()):
+        handles.append(Line2D([], [], color=CUT, lw=2.2, label="notch"))
+    return handles
+
+
+def _add_legend(
+    figure: Figure, axes: Axes, handles: Sequence[Line2D | Patch], columns: int
+) -> None:
+    """Add a legend below a map, which becomes higher by more than one row of it."""
+    if not handles:
+        return
+    rows = math.ceil(len(handles) / columns)
+    figure.set_figheight(figure.get_figheight() + 0.2 * (rows - 1))
+    place = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0)}
+    axes.legend(handles=handles, ncol=columns, frameon=False, **place)
 
 
 def _draw_parts(axes: Axes, parts: Sequence[Table]) -> list[Line2D]:

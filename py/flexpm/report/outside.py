@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib import rc_context
@@ -15,10 +16,11 @@ from matplotlib.figure import Figure
 
 from ..arrays import FloatArray, IntArray
 from ..files import remove_earlier
-from ..results.solids.state import SolidSnapshot
+from ..results.solids.state import SolidSnapshot, edge_keys
 from ..text import label_of
-from .maps import MINERALS, crack_segments, draw_scale_bar
-from .style import COLOURS, CYCLE, STYLE, can_be_drawn, colour_limits, save
+from .joint_colours import joint_colour, joint_handles
+from .maps import MINERALS, crack_segments, draw_joints, draw_scale_bar
+from .style import COLOURS, STYLE, can_be_drawn, colour_limits, save
 
 #: Where the eye is, far away, in space.
 _EYE = np.array([0.42, -0.80, 0.43])
@@ -39,8 +41,23 @@ _GRAINS = np.array(
     ]
 )
 _EDGE = (0.25, 0.23, 0.22)
-#: Most joints that a legend names.
-_MOST_NAMES = 8
+#: Width of the trace of a joint and of the edge of a face [point].
+_TRACE, _LINE = 1.8, 0.3
+#: Distance of a trace from its face towards the viewer, over the longest side [-].
+_ABOVE = 0.04
+#: Edges (n, 2) of each joint on the surface, by its name.
+Traces = Mapping[str, IntArray]
+Colour = tuple[float, ...]
+
+
+class _Piece(NamedTuple):
+    """A face, or an edge as a polygon of two corners."""
+
+    corners: FloatArray  #: in the picture, (n, 2) [mm]
+    fill: Colour
+    edge: Colour
+    width: float  #: of the edge [point]
+    depth: float  #: towards the viewer [m]
 
 
 def outside_picture(
@@ -49,7 +66,7 @@ def outside_picture(
     faces: Sequence[IntArray],
     grains: IntArray,
     caption: str = "",
-    traces: Mapping[str, IntArray] | None = None,
+    traces: Traces | None = None,
 ) -> None:
     """Plot the visible faces of a convex 3D specimen, each grain in its own colour.
 
@@ -67,11 +84,9 @@ def outside_picture(
         tall = 5.6
         figure = Figure(figsize=(tall, tall), layout="constrained")
         axes = figure.add_subplot()
-        width, height = draw_faces(axes, vertices, faces, grains)
+        width, height = draw_faces(axes, vertices, faces, grains, traces=traces)
         figure.set_figwidth(max(2.6, tall * width / height + 0.4))
-        if traces:
-            _draw_traces(axes, vertices, faces, traces)
-            axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.0), ncol=2, frameon=False)
+        _add_legend(axes, traces or {})
         axes.set_title(label_of(caption), fontsize=9.5, loc="left")
         save(figure, path)
 
@@ -84,6 +99,7 @@ def draw_faces(
     *,
     edges: bool = True,
     minerals: IntArray | None = None,
+    traces: Traces | None = None,
 ) -> tuple[float, float]:
     """Plot the faces towards the viewer, the farther faces first.
 
@@ -94,6 +110,7 @@ def draw_faces(
         grains: Grain of each of these faces.
         edges: Whether their edges are plotted.
         minerals: Index of each grain's mineral, which then selects the colour.
+        traces: Edges (n, 2) of each joint on the surface, by its name. Faces in front hide them.
 
     Returns:
         Width and height of the plotted faces [mm].
@@ -101,7 +118,7 @@ def draw_faces(
     eye, axes_of_picture = _view()
     light = _LIGHT / np.linalg.norm(_LIGHT)
     tints = _GRAINS if minerals is None else np.array([to_rgb(one) for one in MINERALS])
-    seen, colours, depths = [], [], []
+    pieces, chosen = [], []
     for face, grain in zip(faces, grains, strict=True):
         corners = vertices[face]
         normal = np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0)
@@ -111,18 +128,19 @@ def draw_faces(
         lit = max(float(normal @ light) / float(length), 0.0)
         # neighbours in number are neighbours in space: steps by 3 of 7 colours tell them apart
         number = 3 * int(grain) if minerals is None else int(minerals[grain])
-        colours.append((_SHADE + (1.0 - _SHADE) * lit) * tints[number % len(tints)])
-        seen.append(1e3 * corners @ axes_of_picture)
-        depths.append(float(corners.mean(axis=0) @ eye))
-    places = np.vstack(seen)
+        fill = tuple((_SHADE + (1.0 - _SHADE) * lit) * tints[number % len(tints)])
+        depth = float(corners.mean(axis=0) @ eye)
+        shape = 1e3 * corners @ axes_of_picture
+        pieces.append(_Piece(shape, fill, _EDGE if edges else fill, _LINE, depth))
+        chosen.append(face)
+    places = np.vstack([one.corners for one in pieces])
     low, high = places.min(axis=0), places.max(axis=0)
     width, height = high - low
-    shown = PolyCollection(
-        [seen[k] for k in np.argsort(depths)],
-        facecolors=[colours[k] for k in np.argsort(depths)],
-        edgecolors=_EDGE if edges else "face",
-        linewidths=0.3,
-    )
+    depths = np.array([one.depth for one in pieces])
+    pieces += _trace_pieces(vertices, chosen, depths, traces or {})
+    pieces.sort(key=lambda one: one.depth)
+    polygons, fills, outlines, widths, _ = zip(*pieces, strict=True)
+    shown = PolyCollection(polygons, facecolors=fills, edgecolors=outlines, linewidths=widths)
     axes.add_collection(shown)
     margin = 0.02 * height
     axes.set_xlim(low[0] - margin, high[0] + margin)
@@ -140,27 +158,38 @@ def _view() -> tuple[FloatArray, FloatArray]:
     return eye, np.column_stack((right, np.cross(eye, right)))
 
 
-def _draw_traces(
-    axes: Axes,
-    vertices: FloatArray,
-    faces: Sequence[IntArray],
-    traces: Mapping[str, IntArray],
-) -> None:
-    """Plot the edges of joints that belong to a face towards the viewer."""
-    eye, axes_of_picture = _view()
-    shown: set[tuple[int, int]] = set()
-    for face in faces:
-        corners = vertices[face]
-        normal = np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0)
-        if normal @ eye > 0.0:
-            ends = zip(face.tolist(), np.roll(face, -1).tolist(), strict=True)
-            shown |= {(min(pair), max(pair)) for pair in ends}
-    for number, (name, edges) in enumerate(traces.items()):
-        seen = [pair for pair in edges.tolist() if tuple(pair) in shown]
-        lines = 1e3 * vertices[np.array(seen, dtype=int).reshape(-1, 2)] @ axes_of_picture
-        colour = CYCLE[number % len(CYCLE)]
-        label = label_of(f"joint {name}") if number < _MOST_NAMES else None
-        axes.add_collection(LineCollection(list(lines), colors=colour, linewidths=1.8, label=label))
+def _trace_pieces(
+    vertices: FloatArray, faces: Sequence[IntArray], depths: FloatArray, traces: Traces
+) -> Iterator[_Piece]:
+    """Yield the edges of joints among these faces.
+
+    An edge is a little nearer to the viewer than its face, so that it is drawn after the face.
+    """
+    sizes = np.array([len(face) for face in faces])
+    corners, ends = np.concatenate(faces), np.cumsum(sizes)
+    after = np.arange(len(corners)) + 1
+    after[ends - 1] = ends - sizes
+    pairs = np.column_stack((corners, corners[after]))
+    keys, owner = edge_keys(*pairs.T), np.repeat(np.arange(len(faces)), sizes)
+    above = _ABOVE * float(np.ptp(vertices, axis=0).max())
+    for number, edges in enumerate(traces.values()):
+        chosen, colour = np.isin(keys, edge_keys(*edges.T)), to_rgb(joint_colour(number))
+        lines = 1e3 * vertices[pairs[chosen]] @ _view()[1]
+        for line, depth in zip(lines, depths[owner[chosen]].tolist(), strict=True):
+            yield _Piece(line, colour, colour, _TRACE, depth + above)
+
+
+def _add_legend(axes: Axes, traces: Traces) -> None:
+    """Add a legend of the joints on the surface below the plot."""
+    shown = {number: name for number, name in enumerate(traces) if len(traces[name])}
+    if shown:
+        axes.legend(
+            handles=joint_handles(shown),
+            loc="upper left",
+            bbox_to_anchor=(0.0, 0.0),
+            ncol=2,
+            frameon=False,
+        )
 
 
 def draw_solid(path: Path | str, snapshot: SolidSnapshot, caption: str = "") -> None:
@@ -180,6 +209,7 @@ def draw_solid(path: Path | str, snapshot: SolidSnapshot, caption: str = "") -> 
         figure = Figure(figsize=(7.2, 5.2), layout="constrained")
         outside, cut = figure.subplots(1, 2)
         faces, grains = _shown_faces(snapshot)
+        traces = snapshot.joint_traces()
         draw_faces(
             outside,
             snapshot.positions,
@@ -187,7 +217,9 @@ def draw_solid(path: Path | str, snapshot: SolidSnapshot, caption: str = "") -> 
             grains,
             edges=False,
             minerals=snapshot.grain_mineral,
+            traces=traces,
         )
+        _add_legend(outside, traces)
         _draw_section(figure, cut, snapshot)
         figure.suptitle(label_of(caption), fontsize=9.5)
         save(figure, path)
@@ -232,6 +264,7 @@ def _draw_section(figure: Figure, axes: Axes, snapshot: SolidSnapshot) -> None:
     triangles = PolyCollection(list(corners), array=stress, cmap="viridis", edgecolors="face")
     triangles.set(clim=(low, max(high, low + 1e-9)), linewidth=0.2)
     axes.add_collection(triangles)
+    draw_joints(axes, section)
     for mode, segments in crack_segments(section).items():
         axes.add_collection(LineCollection(1e3 * segments, colors=COLOURS[mode], linewidths=1.2))
     axes.autoscale_view()

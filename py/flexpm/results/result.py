@@ -122,6 +122,8 @@ class Result(Shown):
     joint_deviation: float | None = None  #: largest distance of a bearing joint from its lines [m]
     #: what came of the lines of each joint, by its name; lengths [m]
     joint_cuts: Table | None = None
+    #: slip, opening and damage of each joint at the end, by its name
+    joint_states: Table | None = None
     networks: Table | None = None  #: P21 requested, generated and cut of each set of traces [1/m]
     loose_grains: int | None = None  #: joined by no contact to what is held, at the end
     #: growth of a distance between grains once bonded, at the end, in mean diameters [-]
@@ -159,6 +161,11 @@ class Result(Shown):
         """Whether the simulation failed: it diverged or had no peak."""
         without = self.status != "ok" and self.peak_stress is None
         return self.status in FAILED or (without and kind_of(self.test).needs_peak)
+
+    @property
+    def notches(self) -> list[str]:
+        """Names of the joints that are cut open before the test."""
+        return [one["name"] for one in self.material.get("joints", ()) if one.get("open")]
 
     @property
     def without_peak(self) -> str:

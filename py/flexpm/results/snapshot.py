@@ -65,8 +65,14 @@ class Snapshot:
     erased_crack_position: FloatArray | None = None  #: (R, 2) [m]
     erased_crack_energy: FloatArray | None = None  #: (R,) [J]
     stress_source: str = OF_TRIANGLES  #: what the stress of a triangle is: its own, or its grain's
+    #: joint of each contact, an index into `joint_names`, -1: none, (C,); None without joints
+    contact_joint: IntArray | None = None
+    joint_names: tuple[str, ...] = ()  #: where they are known; a file has none
+    #: of each contact, 0 of contacts that came later, (C,) [m]; None without joints and of a file
+    bonded_length: FloatArray | None = None
 
     size_name = "area"  #: what its fragments are measured by
+    contact_size_name = "length"  #: what its contacts are measured by
     elements = None  #: number of tetrahedra, of a solid
     parting = None  #: largest growth of a distance of bonded grains, of a solid [m]
 
@@ -169,6 +175,20 @@ class Snapshot:
         found: BoolArray = np.zeros(len(self.contact), dtype=bool)
         found[self.point_contact[chosen]] = True
         return found
+
+    @property
+    def point_sizes(self) -> FloatArray:
+        """Length of the contact that each point stands for, when bonded if known, (P,) [m]."""
+        lengths = self.bonded_length
+        if lengths is None:
+            lengths = np.hypot(*np.diff(self.contact_ends, axis=1)[:, 0].T)
+        found: FloatArray = lengths[self.point_contact] * self.point_share
+        return found
+
+    @property
+    def slip_sizes(self) -> FloatArray:
+        """Slip of each point without its direction, (P,) [m]."""
+        return np.abs(self.point_slip)
 
     @property
     def point_segments(self) -> FloatArray:

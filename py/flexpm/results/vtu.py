@@ -169,6 +169,7 @@ def _snapshot_of(grid: Grid) -> Snapshot:
         crack_mode=by_point["point_crack_mode"],
         crack_position=np.full((len(damage), 2), np.nan),
         grain_mineral=mineral if mineral.any() else None,
+        contact_joint=contacts.get("joint"),
     )
 
 
@@ -292,6 +293,8 @@ def _contact_arrays(snapshot: Snapshot) -> dict[str, Named]:
         "cracked_points": np.count_nonzero(step >= 0, axis=1),
         "crack_mode": np.where(np.any(step >= 0, axis=1), last, 0),
     }
+    if snapshot.contact_joint is not None:
+        arrays["joint"] = snapshot.contact_joint
     by_point: dict[str, FloatArray | IntArray] = {
         "point_damage": damage,
         "point_opening": opening,

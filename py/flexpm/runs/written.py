@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 from .._version import __version__
@@ -36,19 +35,15 @@ FILES = (
 )
 
 
-def write_files(
-    folder: Path, result: Result, notches: Sequence[int] = (), joints: Sequence[int] = ()
-) -> None:
+def write_files(folder: Path, result: Result) -> None:
     """Write numbers, record, cracks, final state and pictures of a result into `folder`.
 
     Args:
         folder: It exists.
         result: The result.
-        notches: Numbers of the contacts that were cut open before the test.
-        joints: Indices of the contacts of other joints.
     """
     write_numbers(folder, result)
-    draw_pictures(folder, result, notches, joints)
+    draw_pictures(folder, result)
 
 
 def write_so_far(folder: Path, result: Result) -> None:
@@ -70,9 +65,7 @@ def write_numbers(folder: Path, result: Result) -> None:
         write_vtu(folder / "final.vtu", result.snapshot, about(result.inputs))
 
 
-def draw_pictures(
-    folder: Path, result: Result, notches: Sequence[int] = (), joints: Sequence[int] = ()
-) -> None:
+def draw_pictures(folder: Path, result: Result) -> None:
     """Draw the pictures of a result into `folder`; arguments as for `write_files`."""
     kind, curve = kind_of(result.test), folder / "curve.png"
     if kind is OWN and not len(result.curve):  # a script need not drive anything
@@ -88,8 +81,9 @@ def draw_pictures(
         caption = size_text(result)
         broken = result.cracks_by_pair
         parts = (result.inputs or {}).get("parts", ())
+        notches = result.notches
         picture = folder / "cracks.png"
-        crack_picture(picture, plane, caption, minerals, notches, broken, parts, joints)
+        crack_picture(picture, plane, caption, minerals, notches, broken, parts)
         fragment_picture(folder / "fragments.png", plane, caption, result.snapshot.fragments)
         emission_picture(folder / "events.png", result, caption)
 
@@ -102,4 +96,6 @@ def about(inputs: Table | None) -> Table:
     about = {name: inputs[name] for name in ("test", "model", "confinement")}
     if inputs.get("second_confinement") is not None:
         about["second_confinement"] = inputs["second_confinement"]
+    if specimen.get("joint_names"):
+        about["joints"] = ", ".join(specimen["joint_names"])
     return {**about, "material": material["name"], "seed": specimen["seed"], "flexpm": __version__}

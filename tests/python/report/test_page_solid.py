@@ -124,7 +124,9 @@ def test_arrays_hold_places_faces_and_the_position_of_cracks(ended):
     assert 0 < halves.sum() < len(halves)
     assert (time_of[: len(halves)] < 255).tolist() == halves.tolist()
     assert np.all(time_of[len(halves) :] == 255)
-    rest = 2 * count["faces"] + count["grains"] * (1 + count["positions"])
+    joints = np.frombuffer(data, np.uint8)[2 * count["faces"] : 3 * count["faces"]]
+    assert np.all(joints == 255)
+    rest = 3 * count["faces"] + count["grains"] * (1 + count["positions"])
     assert len(data) == rest
 
 

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from processes import captured
 from sample_snapshot import GRADIENT, HEIGHT, WIDTH, wall
 
-from flexpm.report import comparison, curves, maps, style
+from flexpm.report import comparison, curves, joint_colours, maps, style
 from flexpm.results.cracks import SHEAR, TENSILE
 from flexpm.results.record import COLUMNS, Curve
 from flexpm.results.result import Result
@@ -30,6 +30,14 @@ def pixels_like(path, colour):
 def area(corners):
     x, y = corners.T
     return 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+
+def jointed(snapshot, names):
+    """The state with joints: the name of the joint of some contacts, by their row."""
+    every = tuple(dict.fromkeys(names.values()))
+    joints = np.full(len(snapshot.contact), -1)
+    joints[[*names]] = [every.index(name) for name in names.values()]
+    return dataclasses.replace(snapshot, contact_joint=joints, joint_names=every)
 
 
 def result_with_peak(stresses, cracks=0.0):
@@ -91,24 +99,52 @@ def test_a_notch_is_seen_and_later_touches_are_none(tmp_path):
     cut = dataclasses.replace(snapshot, point_damage=damage, crack_mode=mode)
     assert cut.cuts.tolist() == [4, 6]
     maps.crack_picture(tmp_path / "whole.png", cut)
-    maps.crack_picture(tmp_path / "cut.png", cut, notches=[cut.contact[4]])
+    maps.crack_picture(tmp_path / "cut.png", jointed(cut, {4: "notch"}), notches=["notch"])
     plain = pixels_like(tmp_path / "whole.png", style.CUT)  # edges of the text
     assert pixels_like(tmp_path / "cut.png", style.CUT) > 2 * plain + 500
 
 
+def test_joints_have_their_colours_and_a_legend(tmp_path, monkeypatch):
+    figures = []
+    save = style.save
+    monkeypatch.setattr(
+        maps, "save", lambda figure, path: (figures.append(figure), save(figure, path))
+    )
+    names = dict.fromkeys(range(6), "fault") | dict.fromkeys(range(8, 12), "bedding")
+    snapshot = jointed(wall(), names)
+    maps.crack_picture(tmp_path / "whole.png", wall())
+    maps.crack_picture(tmp_path / "joints.png", snapshot)
+    ends = np.split(1e3 * snapshot.contact_ends[[*names]], [6])
+    axes = figures[-1].axes[0]
+    for number, expected in enumerate(ends):
+        colour = joint_colours.joint_colour(number)
+        assert pixels_like(tmp_path / "whole.png", colour) == 0
+        assert pixels_like(tmp_path / "joints.png", colour) > 500
+        (lines,) = (one for one in axes.collections if to_hex(one.get_edgecolor()[0]) == colour)
+        assert np.array(lines.get_segments()) == pytest.approx(expected)
+    told = [one.get_text() for one in axes.get_legend().get_texts()]
+    assert told[-2:] == ["joint fault", "joint bedding"]
+
+
+def test_a_legend_names_the_first_joints_and_counts_the_others():
+    handles = joint_colours.joint_handles({number: f"f{number}" for number in range(11)})
+    assert [one.get_label() for one in handles] == [
+        *(f"joint f{number}" for number in range(8)),
+        "and 3 more joints",
+    ]
+    cracks = {style.COLOURS[mode] for mode in (TENSILE, SHEAR)}
+    assert cracks.isdisjoint(joint_colours.JOINTS)
+
+
 def test_joints_are_seen_below_their_cracks(tmp_path):
     snapshot = wall()
-    joints = snapshot.contact[:6]
-    maps.crack_picture(tmp_path / "whole.png", snapshot)
-    maps.crack_picture(tmp_path / "joints.png", snapshot, joints=joints)
-    assert pixels_like(tmp_path / "whole.png", maps._JOINT) == 0
-    assert pixels_like(tmp_path / "joints.png", maps._JOINT) > 500
     cracked = np.isin(snapshot.point_contact, [0, 1, 2, 3, 4, 5])
     broken = dataclasses.replace(
         snapshot, crack_mode=np.where(cracked, SHEAR, 0), point_damage=1.0 * cracked
     )
     maps.crack_picture(tmp_path / "plain.png", broken)
-    maps.crack_picture(tmp_path / "broken.png", broken, joints=joints)
+    joints = dict.fromkeys(range(6), "fault")
+    maps.crack_picture(tmp_path / "broken.png", jointed(broken, joints))
     colour = style.COLOURS[SHEAR]
     assert pixels_like(tmp_path / "broken.png", colour) > 0.9 * pixels_like(
         tmp_path / "plain.png", colour

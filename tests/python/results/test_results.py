@@ -68,6 +68,7 @@ KEYS = [
     "notch_depth",
     "joint_deviation",
     "joint_cuts",
+    "joint_states",
     "networks",
     "loose_grains",
     "largest_separation",

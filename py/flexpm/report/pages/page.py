@@ -21,6 +21,7 @@ import numpy as np
 from ...arrays import FloatArray, IntArray
 from ...files import write_text
 from ...text import printable
+from ..joint_colours import MOST_NAMES
 
 #: Where Debian has the library of the curves.
 CHARTS = Path("/usr/share/javascript/chart.js/chart.min.js")
@@ -115,6 +116,8 @@ class View:
         counts: Numbers of vertices, faces, grains and positions.
         size: Sides of the bounding box [mm].
         stress: Least and largest stress along the load that has a colour [MPa]; empty: unknown.
+        joints: Name and colour of each joint.
+        colours: Colours of joints, which faces name by their index.
         data: The arrays, see page_solid.py, deflated, in base64.
         note: Parts that are left out.
     """
@@ -124,6 +127,8 @@ class View:
     counts: dict[str, int]
     size: Sequence[float]
     stress: Sequence[float]
+    joints: Sequence[tuple[str, str]]
+    colours: Sequence[str]
     data: str
     note: str
 
@@ -142,6 +147,7 @@ class Map:
     rock: Sequence[tuple[str, str, str]]  #: mineral, colour, path of all its grains
     grains: Sequence[str]  #: path of each grain
     notches: str  #: path of what was cut open before the test
+    joints: Sequence[tuple[str, str, str]]  #: name, colour, path of the contacts of each joint
     cracks: Sequence[tuple[str, int, str]]  #: mode, position from which on it is there, path
     fragments: Sequence[str]  #: at each position one letter a grain: its colour
     texts: Sequence[str]  #: what is said of each position
@@ -192,6 +198,7 @@ def write(path: Path, page: Page) -> None:
         "page.html",
         page=page,
         drawn=drawn,
+        most_names=MOST_NAMES,
         library=CHARTS.read_text(encoding="utf-8") if page.charts and CHARTS.exists() else "",
         style=(_TEMPLATES / "page.css").read_text(encoding="utf-8"),
         turning=deflated(_joined(*TURNING).encode()) if there else "",

@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from ...results.record import Curve
 from ...results.result import Result
 from ...results.snapshot import Snapshot
 from ...results.solids.state import AnySnapshot, SolidSnapshot
+from ..joint_colours import joint_colour
 from ..maps import MINERALS
 from ..words import words_of_result
 from .page import Map, rows_to_draw
@@ -67,6 +68,7 @@ def crack_map(
     letters = [_letters(one) for one in found]
     seen = [grain for grain, path in enumerate(outlines) if path]  # of a solid those in its section
     width, height = np.ptp(drawing.positions, axis=0) * scale
+    joints = {k: name for k, name in enumerate(drawing.joint_names) if name not in result.notches}
     return Map(
         name=name,
         title=title,
@@ -74,7 +76,8 @@ def crack_map(
         bar=_bar(scale, float(width)),
         rock=_rock(drawing, outlines, minerals),
         grains=[outlines[grain] for grain in seen],
-        notches=_ways(_units(drawing.contact_ends[drawing.cuts], scale, corner)),
+        notches=_ways(_units(drawing.contact_ends[_notches(drawing, joints)], scale, corner)),
+        joints=_joint_paths(drawing, joints, scale, corner),
         cracks=_crack_paths(drawing, result.cracks, at, scale, corner),
         fragments=["".join(map(one.__getitem__, seen)) for one in letters],
         texts=[_text(result, row, len(one)) for row, one in zip(positions, found, strict=True)],
@@ -211,6 +214,27 @@ def _ways(ends: IntArray) -> str:
     """Path along straight pieces, by the ends of each (K, 2, 2)."""
     pieces = ends.reshape(-1, 4).tolist()
     return "".join(f"M{x0} {y0}l{x1 - x0} {y1 - y0}" for x0, y0, x1, y1 in pieces)
+
+
+def _notches(drawing: Snapshot, joints: Mapping[int, str]) -> IntArray:
+    """Contacts that are open before the test, without those of joints without strength."""
+    if drawing.contact_joint is None:
+        return drawing.cuts
+    of_joint = np.isin(drawing.contact_joint, [*joints])
+    return drawing.cuts[~of_joint[drawing.cuts]]
+
+
+def _joint_paths(
+    drawing: Snapshot, joints: Mapping[int, str], scale: float, corner: FloatArray
+) -> list[tuple[str, str, str]]:
+    """Name, colour and path of the contacts of each joint, if it has any."""
+    if drawing.contact_joint is None:
+        return []
+    paths = {
+        number: _ways(_units(drawing.contact_ends[drawing.contact_joint == number], scale, corner))
+        for number in joints
+    }
+    return [(joints[number], joint_colour(number), path) for number, path in paths.items() if path]
 
 
 def _crack_paths(

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,7 @@ from ...results.result import Result
 from ...results.result_checks import FINISHED, SO_FAR
 from ...results.solids.state import AnySnapshot, SolidSnapshot
 from ...results.vtu import read_state
-from ...text import words_of
+from ...text import name_of, words_of
 from ..curves import fits_a_picture
 from ..emission import emission_table
 from ..style import COLOURS, CYCLE, MODE_NAMES
@@ -142,7 +143,10 @@ def _tables(
 ) -> list[Rows]:
     """Return all tables with rows: first the tables of this page, then the common tables."""
     file = FINISHED if (folder / FINISHED).is_file() else SO_FAR
-    others = (_pairs_table(result), emission_table(result), inputs_table(inputs, file=file))
+    others = (
+        *(_joints_table(result), _pairs_table(result)),
+        *(emission_table(result), inputs_table(inputs, file=file)),
+    )
     return [one for one in (*first, *others) if one]
 
 
@@ -252,7 +256,9 @@ def run_map(
     """
     if not len(result.curve):
         return None
-    drawing = read_state(folder / "specimen.vtu")
+    specimen = (result.inputs or {}).get("specimen") or {}
+    names = tuple(specimen.get("joint_names") or ())
+    drawing = replace(read_state(folder / "specimen.vtu"), joint_names=names)
     shown = rows if rows is not None and len(rows) else None
     after = _state_after(folder, drawing) if turns else None
     try:
@@ -321,6 +327,34 @@ def _reading(result: Result) -> str:
             "Young's modulus is measured in the middle half of the specimen, with joints (D21)."
         )
     return " ".join(lines)
+
+
+def _joints_table(result: Result) -> Rows | None:
+    """Return slip, opening and damage of each joint at the end; None without joints."""
+    if not result.joint_states:
+        return None
+    size, factor, unit = (
+        ("length", 1e3, "mm") if result.tetrahedra is None else ("area", 1e6, "mm2")
+    )
+    columns = (
+        (size, f"{size} [{unit}]", factor),
+        ("cracked", "cracked [%]", 100.0),
+        ("damage", "damage [-]", 1.0),
+        ("slip", "slip [µm]", 1e6),
+        ("largest_slip", "largest slip [µm]", 1e6),
+        ("opening", "opening [µm]", 1e6),
+        ("largest_opening", "largest opening [µm]", 1e6),
+    )
+    rows = [
+        (name_of(joint), *(scaled(found.get(key), by, "") for key, _, by in columns))
+        for joint, found in result.joint_states.items()
+    ]
+    note = (
+        f"Damage, slip and opening are means over the {size} of the contacts of the joint. "
+        "Cracked: without a bond, also from the start of the test. An opening is negative where "
+        "the faces press on each other."
+    )
+    return Rows("Joints at the end", ("joint", *(title for _, title, _ in columns)), rows, note)
 
 
 def _pairs_table(result: Result) -> Rows | None:

@@ -15,17 +15,16 @@ import numpy as np
 from ...arrays import FloatArray, IntArray
 from ...results.cracks import AnyCrack
 from ...results.solids.state import SolidSnapshot
+from ..joint_colours import JOINTS, joint_colour
 from ..style import colour_limits
 from .page import View, deflated
 
 #: Steps of a coordinate along the longest side: 0.01 mm for a core of 100 mm.
 _STEPS = 10_000
-#: Crack position of a face that has not cracked.
-_NEVER = 255
-#: Number of grains above which only cracked faces and the surface are written.
+#: Crack position of a face that has not cracked, and colour of a face on no joint.
+_NEVER = _NO_JOINT = 255
+#: Number of grains above which only cracked faces, joints and the surface are written.
 LARGEST_WHOLE = 20_000
-#: Distance below which two positions are equal, relative to the longest side.
-_SAME = 1e-7
 
 
 class _Faces(NamedTuple):
@@ -58,11 +57,12 @@ def solid_view(
     faces = _faces(specimen)
     contacts = len(specimen.contact_grains)
     time, mode = _crack_times(specimen, cracks, at)
+    joint = _joint_colours(specimen)
     note = ""
     kept = np.ones(len(faces.sizes), dtype=bool)
     if len(specimen.volumes) > LARGEST_WHOLE:
-        kept[:contacts] = time < _NEVER
-        note = "Inner faces without cracks are not shown: a cut shows only cracks."
+        kept[:contacts] = (time < _NEVER) | (joint < _NO_JOINT)
+        note = "Inner faces without cracks are not shown: a cut shows only cracks and joints."
     stress, limits = (None, ()) if final is None else _stresses(final)
     low, span = faces.vertices.min(axis=0), np.ptp(faces.vertices, axis=0)
     scale = _STEPS / float(span.max())
@@ -79,6 +79,7 @@ def solid_view(
         _varints(faces.grains[kept, 1] - faces.grains[kept, 0]),
         _bytes(np.concatenate([time, np.full(len(faces.sizes) - contacts, _NEVER)])[kept]),
         _bytes(np.concatenate([mode, np.zeros(len(faces.sizes) - contacts, dtype=int)])[kept]),
+        _bytes(np.concatenate([joint, np.full(len(faces.sizes) - contacts, _NO_JOINT)])[kept]),
         _bytes(np.zeros(len(specimen.volumes), dtype=int) if stress is None else stress),
         np.concatenate([codes[:1], codes[1:] ^ codes[:-1]]).tobytes(),
     )
@@ -94,6 +95,12 @@ def solid_view(
         },
         size=[float(f"{1e3 * side:.6g}") for side in span],
         stress=[float(f"{1e-6 * one:.4g}") for one in limits],
+        joints=[
+            (name, joint_colour(number))
+            for number, name in enumerate(specimen.joint_names)
+            if specimen.contact_joint is not None and np.any(specimen.contact_joint == number)
+        ],
+        colours=JOINTS,
         data=deflated(b"".join(arrays)),
         note=note,
     )
@@ -101,13 +108,7 @@ def solid_view(
 
 def _faces(solid: SolidSnapshot) -> _Faces:
     """Return the contacts, in their order, then the triangles on the surface."""
-    places = np.concatenate([solid.corner_reference, solid.reference])
-    step = _SAME * float(np.ptp(places, axis=0).max())
-    _, first, one = np.unique(
-        np.rint(places / step).astype(np.int64), axis=0, return_index=True, return_inverse=True
-    )
-    one = one.ravel()
-    corner, node = one[: len(solid.corner_reference)], one[len(solid.corner_reference) :]
+    places, corner, node = solid.merged()
     outer = node[solid.tetrahedra[:, 1:]]
     flat = np.sort(outer, axis=1)
     _, which, count = np.unique(flat, axis=0, return_inverse=True, return_counts=True)
@@ -115,13 +116,20 @@ def _faces(solid: SolidSnapshot) -> _Faces:
     sizes = np.diff(solid.corner_offsets)
     owners = solid.tetrahedron_grain[alone]
     return _Faces(
-        vertices=places[first],
+        vertices=places,
         sizes=np.concatenate([sizes, np.full(int(alone.sum()), 3)]),
         corners=np.concatenate([corner, outer[alone].ravel()]),
         grains=np.concatenate(
             [solid.contact_grains, np.column_stack([owners, np.full(len(owners), -1)])]
         ),
     )
+
+
+def _joint_colours(solid: SolidSnapshot) -> IntArray:
+    """Index of the colour of the joint of each contact."""
+    if solid.contact_joint is None:
+        return np.full(len(solid.contact_grains), _NO_JOINT)
+    return np.where(solid.contact_joint < 0, _NO_JOINT, solid.contact_joint % len(JOINTS))
 
 
 def _crack_times(

@@ -26,6 +26,8 @@ _IN_PLANE = (0, 2, 4)
 _EDGES = np.array([(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)])
 #: Tetrahedra that are computed at a time.
 _AT_ONCE = 20_000
+#: Distance below which two positions are equal, relative to the longest side.
+_SAME = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,11 +72,15 @@ class SolidSnapshot:
     )
     #: Pairs of grains that press on each other without a common face.
     pairs: PressingPairs = field(default_factory=PressingPairs.none)
+    #: joint of each contact, an index into `joint_names`, -1: none, (C,); None without joints
+    contact_joint: IntArray | None = None
+    joint_names: tuple[str, ...] = ()  #: where they are known; a file has none
 
     #: No bond of a solid is erased.
     erased_contact = erased_grains = erased_point_bond = erased_crack_step = None
     erased_crack_mode = erased_crack_position = erased_crack_energy = None
     size_name = "volume"  #: what its fragments are measured by
+    contact_size_name = "area"  #: what its contacts are measured by
 
     @property
     def drawn(self) -> Snapshot:
@@ -118,6 +124,16 @@ class SolidSnapshot:
         found: BoolArray = np.zeros(len(self.contact_grains), dtype=bool)
         found[self.point_contact[chosen]] = True
         return found
+
+    @property
+    def point_sizes(self) -> FloatArray:
+        """Area of the contact that each point stands for, (P,) [m2]."""
+        return self.point_area
+
+    @property
+    def slip_sizes(self) -> FloatArray:
+        """Slip of each point without its direction, (P,) [m]."""
+        return _lengths(self.point_slip)
 
     @property
     def grain_areas(self) -> FloatArray:
@@ -201,7 +217,7 @@ class SolidSnapshot:
             point_contact=owner,
             point_share=self.point_area[points] / self.areas[rows][owner],
             point_opening=self.point_opening[points],
-            point_slip=_lengths(self.point_slip[points]),
+            point_slip=self.slip_sizes[points],
             point_damage=self.point_damage[points],
             point_traction=np.column_stack(
                 (self.point_traction[points, 0], _lengths(self.point_traction[points, 1:]))
@@ -212,7 +228,45 @@ class SolidSnapshot:
             crack_energy=self.crack_energy[points],
             grain_mineral=self.grain_mineral,
             stress_source=self.stress_source,
+            contact_joint=None if self.contact_joint is None else self.contact_joint[rows],
+            joint_names=self.joint_names,
         )
+
+    def joint_traces(self) -> dict[str, IntArray]:
+        """Return the edges of the surface at which each joint meets it, by name: nodes, (n, 2).
+
+        The grains on both sides of a joint have nodes of their own, so that each edge between them
+        occurs once for each side.
+        """
+        if self.contact_joint is None:
+            return {}
+        _, corner, node = self.merged()
+        after, row = self._next_corners()
+        edges = edge_keys(corner, corner[after])
+        outer = np.concatenate([self.surface[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
+        keys, joint = edge_keys(*node[outer].T), self.contact_joint[row]
+        return {
+            name: outer[np.isin(keys, edges[joint == number])]
+            for number, name in enumerate(self.joint_names)
+        }
+
+    def merged(self) -> tuple[FloatArray, IntArray, IntArray]:
+        """Return the positions in the bonded state, and that of each corner and each node."""
+        places = np.concatenate([self.corner_reference, self.reference])
+        step = _SAME * float(np.ptp(places, axis=0).max())
+        _, first, one = np.unique(
+            np.rint(places / step).astype(np.int64), axis=0, return_index=True, return_inverse=True
+        )
+        one = one.ravel()
+        corners = len(self.corner_reference)
+        return places[first], one[:corners], one[corners:]
+
+    def _next_corners(self) -> tuple[IntArray, IntArray]:
+        """For each corner the next one around its contact, and the contact."""
+        after = np.arange(self.corner_offsets[-1]) + 1
+        after[self.corner_offsets[1:] - 1] = self.corner_offsets[:-1]
+        sizes = np.diff(self.corner_offsets)
+        return after, np.repeat(np.arange(len(sizes)), sizes)
 
     def _cut_tetrahedra(
         self, side: FloatArray
@@ -247,12 +301,9 @@ class SolidSnapshot:
         Args:
             away: Distance of each corner from the section [m].
         """
-        sizes = np.diff(self.corner_offsets)
-        row = np.repeat(np.arange(len(sizes)), sizes)
-        after = np.arange(len(row)) + 1
-        after[self.corner_offsets[1:] - 1] = self.corner_offsets[:-1]
+        after, row = self._next_corners()
         crossed = np.flatnonzero((away < 0.0) != (away[after] < 0.0))
-        twice = np.bincount(row[crossed], minlength=len(sizes)) == 2
+        twice = np.bincount(row[crossed], minlength=len(self.contact_grains)) == 2
         crossed = crossed[twice[row[crossed]]]
         first, second = crossed, after[crossed]
         share = _shares(np.column_stack((away[first], away[second])))[:, None]
@@ -274,6 +325,12 @@ def _turned(triangles: IntArray, places: FloatArray) -> IntArray:
     a, b, c = (places[triangles[:, k]] for k in range(3))
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     return np.where((area < 0.0)[:, None], triangles[:, ::-1], triangles)
+
+
+def edge_keys(first: IntArray, last: IntArray) -> IntArray:
+    """Return one number for each edge, by the numbers of its ends in any order."""
+    keys: IntArray = np.minimum(first, last).astype(np.int64) << 32 | np.maximum(first, last)
+    return keys
 
 
 def _shares(away: FloatArray) -> FloatArray:

@@ -205,6 +205,7 @@ def state_of_grid(grid: Grid) -> SolidSnapshot:
         crack_energy=np.full(len(row), np.nan),
         grain_mineral=_minerals_of(cells, owner, len(volumes)),
         pairs=_pairs_of(cells, end, grid.places[ends:]) if pairs else PressingPairs.none(),
+        contact_joint=bonds.get("joint"),
     )
 
 
@@ -338,6 +339,8 @@ def _of_contacts(snapshot: SolidSnapshot) -> dict[str, Named]:
         "cracked_points": np.bincount(row[broken], minlength=count),
         "crack_mode": mode,
     }
+    if snapshot.contact_joint is not None:
+        arrays["joint"] = snapshot.contact_joint
     return {name: (values, ()) for name, values in arrays.items()}
 
 

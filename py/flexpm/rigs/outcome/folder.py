@@ -28,7 +28,6 @@ from ...report.words import turns_by
 from ...results import measures
 from ...results.cracks import MODES
 from ...results.result import Result
-from ...results.solids.state import AnySnapshot
 from ...runs.asked import write_report
 from ...runs.loading_rate import WAITING_MODELS, rates_of
 from ...runs.output import BEGUN, RESULT, is_of_flexpm, refuse_other_kind
@@ -71,7 +70,7 @@ def save(
     result.step_time = step_time
     given.save(place, rig.built.specimen)
     assert result.snapshot is not None
-    write_files(place, result, *lines_in(rig, result.snapshot))
+    write_files(place, result)
     if report:
         write_report(place, result)
     else:
@@ -156,21 +155,6 @@ def _largest_unbalanced(rig: RigReadings, waiting: bool) -> float:
         brittle = is_brittle(described(rig.built.material, rig.built.name))
         ratio = None if rates.waiting_ratios is None else rates.waiting_ratios[brittle]
     return math.inf if ratio is None else ratio
-
-
-def lines_in(rig: RigReadings, snapshot: AnySnapshot) -> tuple[list[int], list[int]]:
-    """Numbers of the contacts of open joints, which no test has opened, and of other joints."""
-    specimen = rig.built.specimen
-    if specimen.edge_joints is None:
-        return [], []
-    open_ones = {joint.name for joint in rig.built.material.joints if joint.open}
-    names = specimen.spec.joint_names or ()
-    found: tuple[list[int], list[int]] = ([], [])
-    for number in snapshot.contact.tolist():
-        joint = specimen.edge_joints[number] if number < len(specimen.edge_joints) else -1
-        if joint >= 0:
-            found[names[joint] not in open_ones].append(number)
-    return found
 
 
 def _refuse_others(folder: Path, inputs: Table) -> None:

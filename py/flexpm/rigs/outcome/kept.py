@@ -42,7 +42,7 @@ from ...specimens.files import given
 from ..frames import COLLECTION, FRAMES, STATE, TABLE, FrameWriter, LastState, show_frames
 from ..rig import TestRig
 from .calls import Calls
-from .folder import inputs_before, inputs_of, lines_in, result_so_far
+from .folder import inputs_before, inputs_of, result_so_far
 
 #: Entries of a solver that say how it is stepped, not what it steps.
 _NO_STATE = ("ompThreads", "stepsToCome", "label", "bodyIds")
@@ -108,7 +108,6 @@ class KeptTest:
         self._resumed_at = yade.O.iter if found else None
         self._result: Result | None = None  # what is written, and not drawn yet
         self._last: LastState | None = None  # the state that was written with it
-        self._lines: tuple[list[int], list[int]] = ([], [])  # contacts of notches and of joints
         self._ended, self._doing = "", ""
         self._stop: Callable[[], None] = _nothing
         self._held: TestRig | None = None  # the rig, until the test is closed
@@ -220,7 +219,7 @@ class KeptTest:
         if self._result is None:
             return
         result, self._result = self._result, None
-        draw_pictures(self._folder, result, *self._lines)
+        draw_pictures(self._folder, result)
         if self._frames is not None and self._last is not None:
             self._frames.finish(self._last)
             show_frames(self._folder, self._frames.frames, result, self._output.film)
@@ -264,7 +263,6 @@ class KeptTest:
         if ended:
             result.status, result.ended_by = UNFINISHED, None
         assert result.snapshot is not None
-        self._lines = lines_in(rig, result.snapshot)
         write_numbers(self._folder, result)
         self._result, self._ended = result, ended
         if self._frames is not None:

@@ -11,6 +11,7 @@ from ...kinds.registry import kind_of
 from ...models.grains import Model
 from ...results.cracks import count_by_pair, count_softened_by_pair, cracks_from_snapshot
 from ...results.emission import EventRule, event_rule
+from ...results.joint_states import joint_states
 from ...results.result import Result
 from ...specimens.kernel_input import Circle
 from ...specimens.specimen import AnySpecimen, Specimen
@@ -75,6 +76,7 @@ def result_of(rig: RigReadings, test: str, largest_unbalanced: float, *, waiting
         result.largest_clearance = built.largest_clearance
         cuts = built.specimen.told_cuts.items()
         result.joint_cuts = {name: cut.to_json() for name, cut in cuts} or None
+        result.joint_states = joint_states(snapshot)
         result.networks = built.specimen.network_intensities() or None
         result.loose_grains, result.largest_separation = built.parting(snapshot)
     return result

@@ -94,9 +94,10 @@ def solved(rig: object, built: Model, solve: Callable[[], Table]) -> ElasticStat
         found = solve()
     except (ValueError, RuntimeError) as error:
         raise InputError(f"elastic: {error}") from None
+    arrays = found.pop("snapshot")
     return ElasticState(
-        **found.pop("snapshot"),
-        **built.of_snapshots,
+        **arrays,
+        **built.of_snapshots(arrays["contact"]),
         rig=rig,
         plates=tuple(found.pop("plates")),
         node_sets=tuple(found.pop("node_sets")),

@@ -7,7 +7,7 @@ const fragmentColours = {
     "5": [0.96, 0.85, 0.50], "6": [0.60, 0.80, 0.75], "7": [0.90, 0.72, 0.82],
 };
 const rock = [0.82, 0.78, 0.71];
-const never = 255;
+const never = 255, noJoint = 255;
 // viridis, in five steps
 const stressColours = [[0.27, 0.00, 0.33], [0.23, 0.32, 0.55], [0.13, 0.57, 0.55], [0.37, 0.79, 0.38], [0.99, 0.91, 0.14]];
 
@@ -53,13 +53,13 @@ function arraysOf(view, bytes) {
     const sizes = read.plain(faces);
     const corners = read.sums(sizes.reduce((sum, one) => sum + one, 0));
     const first = read.sums(faces), second = read.varints(faces).map((one, i) => one + first[i]);
-    const time = read.plain(faces), mode = read.plain(faces), stress = read.plain(grains);
+    const time = read.plain(faces), mode = read.plain(faces), joint = read.plain(faces), stress = read.plain(grains);
     const letters = read.plain(grains * positions).slice();
     for (let i = grains; i < letters.length; ++i) letters[i] ^= letters[i - grains];
-    return { x, y, z, sizes, corners, first, second, time, mode, stress, letters };
+    return { x, y, z, sizes, corners, first, second, time, mode, joint, stress, letters };
 }
 
-// Triangles of all faces, each with corners of its own, and the edges of faces that crack.
+// Triangles of all faces, each with corners of its own, and the edges of faces that crack or lie on a joint.
 function meshesOf(view, arrays) {
     const longest = Math.max(...view.size), middle = view.size.map((one) => 0.5 * one / longest);
     const place = (v) => [arrays.x[v], arrays.y[v], arrays.z[v]].map((one, i) => one / view.counts.steps - middle[i]);
@@ -78,7 +78,7 @@ function meshesOf(view, arrays) {
             for (const one of corners) for (let i = 0; i < 3; ++i) centres[3 * grain + i] += one[i];
             met[grain] += size;
         }
-        if (arrays.time[f] === never) return;
+        if (arrays.time[f] === never && arrays.joint[f] === noJoint) return;
         corners.forEach((one, k) => {
             lines.push(...one, ...corners[(k + 1) % size]);
             lineFace.push(f);
@@ -92,6 +92,7 @@ class SolidView {
     constructor(view, arrays) {
         Object.assign(this, { view, arrays });
         this.mesh = meshesOf(view, arrays);
+        this.jointColours = view.colours.map((one) => [1, 3, 5].map((at) => parseInt(one.slice(at, at + 2), 16) / 255));
         this.element = document.getElementById(`${view.name}-canvas`);
         this.renderer = new THREE.WebGLRenderer({ canvas: this.element, antialias: true, preserveDrawingBuffer: true });
         this.renderer.setPixelRatio(window.devicePixelRatio);
@@ -133,6 +134,12 @@ class SolidView {
         traces.setAttribute("position", new THREE.BufferAttribute(lines, 3));
         traces.setAttribute("color", new THREE.BufferAttribute(this.lineColours, 3));
         this.scene.add(new THREE.Mesh(solid, material));
+        // the outside, pale around joints
+        const around = this.around = new THREE.BufferGeometry();
+        around.setAttribute("position", solid.getAttribute("position"));
+        this.scene.add(new THREE.Mesh(around, new THREE.MeshBasicMaterial({
+            color: 0x6b6455, transparent: true, opacity: 0.1, side: THREE.DoubleSide, depthWrite: false,
+        })));
         this.scene.add(new THREE.LineSegments(traces, new THREE.LineBasicMaterial({ vertexColors: THREE.VertexColors })));
     }
 
@@ -157,13 +164,16 @@ class SolidView {
         const side = this.axis < 0 ? 1 : this.view.size[this.axis] / longest;
         this.away = (Number(this.inputs.cut.value) / 100 - 0.5) * side;
         this.by = this.inputs.colour.value;
-        const cracksAlone = this.inputs.show.value === "cracks", index = [];
+        const alone = this.inputs.show.value, whole = alone === "faces", byJoint = this.by === "joint", index = [];
         const cracked = (f) => arrays.time[f] <= this.now && arrays.time[f] !== never;
         const state = Array.from(arrays.sizes, (_, f) => {
             const a = this.before(arrays.first[f]), b = this.before(arrays.second[f]);
-            if (cracksAlone) return cracked(f) && (a || b) ? crackColours[arrays.mode[f]] || rock : null;
+            const on = this.jointColours[arrays.joint[f]], broken = cracked(f) ? crackColours[arrays.mode[f]] || rock : null;
+            if (alone === "cracks") return a || b ? (byJoint && broken && on) || broken : null;
+            if (alone === "joints") return on && (a || b) ? (!byJoint && broken) || on : null;
             if (a === b) return null; // within, or cut away
             const grain = a ? arrays.first[f] : arrays.second[f];
+            if (byJoint) return on || rock;
             return cracked(f) && this.by === "mode" ? crackColours[arrays.mode[f]] || rock : this.grainColour(grain);
         });
         mesh.face.forEach((f, t) => {
@@ -173,11 +183,18 @@ class SolidView {
         });
         this.faces.setIndex(new THREE.BufferAttribute(new Uint32Array(index), 1));
         this.faces.attributes.color.needsUpdate = true;
+        const outside = [];
+        if (alone === "joints") mesh.face.forEach((f, t) => {
+            if (arrays.second[f] < 0 && this.before(arrays.first[f])) outside.push(3 * t, 3 * t + 1, 3 * t + 2);
+        });
+        this.around.setIndex(new THREE.BufferAttribute(new Uint32Array(outside), 1));
         const drawn = [];
         mesh.lineFace.forEach((f, e) => {
-            if (cracksAlone || !cracked(f) || !(this.before(arrays.first[f]) || this.before(arrays.second[f]))) return;
+            const on = this.jointColours[arrays.joint[f]];
+            if (!whole || !(on || cracked(f)) || !(this.before(arrays.first[f]) || this.before(arrays.second[f]))) return;
             drawn.push(2 * e, 2 * e + 1);
-            for (let k = 0; k < 2; ++k) this.lineColours.set(crackColours[arrays.mode[f]] || rock, 6 * e + 3 * k);
+            const colour = on && (byJoint || !cracked(f)) ? on : crackColours[arrays.mode[f]] || rock;
+            for (let k = 0; k < 2; ++k) this.lineColours.set(colour, 6 * e + 3 * k);
         });
         this.traces.setIndex(new THREE.BufferAttribute(new Uint32Array(drawn), 1));
         this.traces.attributes.color.needsUpdate = true;
