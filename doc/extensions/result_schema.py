@@ -101,6 +101,7 @@ def numbers(units: Mapping[str, str | None], choices: Mapping[str, Iterable[str]
 def made() -> dict[str, Any]:
     """The schema."""
     importlib.import_module("flexpm")
+    from flexpm.joints.planes import PlanesCut
     from flexpm.kinds.registry import ELASTIC, TESTS, options
     from flexpm.materials.interface import KEYS
     from flexpm.materials.keys import CHOICES, JOINT_UNITS, UNITS
@@ -154,6 +155,7 @@ def made() -> dict[str, Any]:
             "mineral": {"type": "object", "properties": dict(words)},
             "joint": table({"name": TEXT, **numbers(JOINT_UNITS, {})}, ("name",)),
             "interface": table({key: words[key] for key in KEYS}, KEYS),
+            "planes_cut": table(planes := fields_of(PlanesCut), planes),
         },
     }
     whole = joined(schema, TABLES)

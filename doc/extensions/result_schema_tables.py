@@ -58,6 +58,16 @@ JOINT_CUT = table(
     }
 )
 
+POLES = {
+    **dict.fromkeys(("p10_x", "p10_y", "p10_z"), entry("number", "Planes per length [1/m]")),
+    "planes": entry("integer", "Planes in the specimen", minimum=0),
+    "dip": entry("number", "Of the mean plane [degrees]"),
+    "dip_direction": entry("number", "Of the mean plane [degrees]"),
+    "concentration": entry(["number", "null"], "Estimate of Fisher's concentration [-]"),
+}
+#: Intensities of a set, then their old names.
+INTENSITIES = ("target", "generated", "cut", "asked", "drawn")
+
 JOINT_STATE = {
     **table(
         {
@@ -223,15 +233,14 @@ TABLES: Entry = {
             "between; null if all grains are alike or nothing has cracked",
         ),
         "joint_cuts": named(
-            reference("joint_cut"), "What came of the lines of each joint, by its name"
+            {"oneOf": [reference("joint_cut"), reference("planes_cut")]},
+            "What came of the lines, in 3D planes of each joint, by its name",
         ),
         "joint_states": named(reference("joint_state"), "State of each joint at the end, by name"),
         "networks": named(
-            table(
-                {name: entry("number") for name in ("target", "generated", "cut", "asked", "drawn")}
-            ),
-            "P21 requested, generated and cut of each set of traces, by its joint [1/m]; "
-            "asked and drawn are old names of target and generated, removed in 0.4",
+            {"oneOf": [reference("traces"), reference("poles")]},
+            "P21, in 3D P32 requested, generated and cut of each set, by its joint [1/m]; asked "
+            "and drawn are old names of target and generated, removed in 0.4",
         ),
         "rates": entry(
             ["array", "null"],
@@ -251,6 +260,9 @@ TABLES: Entry = {
         "interface": INTERFACE,
         "joint_cut": JOINT_CUT,
         "joint_state": JOINT_STATE,
+        "traces": table({name: entry("number") for name in INTENSITIES}),
+        "poles": table({name: entry(["number", "null"]) for name in INTENSITIES} | POLES)
+        | {"required": [*INTENSITIES, "p10_x", "p10_y", "p10_z", "planes"]},
         "own_inputs": OWN_INPUTS,
         "loading": LOADING,
     },

@@ -6,6 +6,7 @@ Input in SI units; labels in MPa, % and mm.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,6 +14,7 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from ..arrays import FloatArray
 from ..materials.references import Reference
@@ -22,7 +24,7 @@ from ..results.solids.state import drawn_state
 from ..results.strength import Envelope, MohrCoulomb
 from ..text import label_of
 from .curves import fits_a_picture, peak_place
-from .maps import draw_cracks
+from .maps import draw_cracks, draw_joints
 from .style import CYCLE, MODE_NAMES, STYLE, can_be_drawn, save
 from .words import words_of_result
 
@@ -86,17 +88,21 @@ def cracks_picture(path: Path | str, runs: Runs) -> None:
     size = (2.6 * columns, (2.6 * (height + margin) / width + 0.45) * rows + 0.4)
     with rc_context(STYLE):
         figure = Figure(figsize=size, layout="constrained")
-        legend = 0.3 / size[1]  # keeps room for it
-        figure.get_layout_engine().set(rect=(0.0, legend, 1.0, 0.99 - legend))
         grid = figure.subplots(rows, columns, squeeze=False).ravel()
         for axes in grid:
             axes.set_axis_off()
+        joints: list[Line2D] = []
         for axes, (label, result, snapshot) in zip(grid, drawn, strict=False):
             axes.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1] - margin, high[1]))
             handles = draw_cracks(axes, snapshot)
+            joints = draw_joints(axes, snapshot, result.notches) or joints
             counts = f"{result.tensile_cracks} tensile, {result.shear_cracks} shear"
             axes.set_title(f"{label}\n{counts}", fontsize=8.5)
         names = [MODE_NAMES[mode] for mode in (TENSILE, SHEAR)]
+        names += [str(one.get_label()) for one in joints]
+        legend = 0.3 * math.ceil(len(names) / 2) / size[1]  # keeps room for it
+        figure.get_layout_engine().set(rect=(0.0, legend, 1.0, 0.99 - legend))
+        handles = [*handles[:2], *joints]
         figure.legend(handles, names, loc="lower center", ncols=2, frameon=False)
         save(figure, path)
 

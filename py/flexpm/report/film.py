@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from matplotlib import animation, rc_context
@@ -13,7 +14,7 @@ from ..files import whole_file
 from ..results.result import Result
 from ..results.vtu import read_vtu
 from .curves import fits_a_picture, places_of
-from .maps import draw_cracks
+from .maps import draw_cracks, draw_joints
 from .style import STYLE, can_be_drawn
 from .tables import size_text, test_text
 from .words import words_of_result
@@ -39,7 +40,10 @@ def write_film(path: Path, result: Result, frames: Sequence[tuple[Path, float, f
         result: The run.
         frames: File, axial strain [-] and axial stress [Pa] of each frame.
     """
-    states = [(read_vtu(file), strain, stress) for file, strain, stress in frames]
+    states = [
+        (replace(read_vtu(file), joint_names=result.joint_names), strain, stress)
+        for file, strain, stress in frames
+    ]
     states = [state for state in states if can_be_drawn(state[0].positions)]
     if not states or not fits_a_picture(result.curve):
         return
@@ -64,6 +68,7 @@ def write_film(path: Path, result: Result, frames: Sequence[tuple[Path, float, f
                 rock.set(aspect="equal", xlim=(low[0] - room[0], high[0] + room[0]))
                 rock.set_ylim(low[1] - room[1], high[1] + room[1])
                 draw_cracks(rock, snapshot)
+                draw_joints(rock, snapshot, result.notches)
                 now.set_data([places_of(result, at)], [names.y.factor * stress])
                 writer.grab_frame()
 

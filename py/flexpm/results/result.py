@@ -163,6 +163,12 @@ class Result(Shown):
         return self.status in FAILED or (without and kind_of(self.test).needs_peak)
 
     @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Names of the joints of the specimen, in the order of their indices."""
+        specimen = (self.inputs or {}).get("specimen") or {}
+        return tuple(specimen.get("joint_names") or ())
+
+    @property
     def notches(self) -> list[str]:
         """Names of the joints that are cut open before the test."""
         return [one["name"] for one in self.material.get("joints", ()) if one.get("open")]

@@ -73,3 +73,22 @@ def test_what_a_solid_writes_is_valid(validator, tmp_path):
     flexpm.run("tension", solid, MINERALS, max_strain=2e-5, out=tmp_path)
     content = json.loads((tmp_path / "result.json").read_text())
     assert list(validator.iter_errors(content)) == []
+
+
+def test_what_a_solid_with_a_network_writes_is_valid(validator, tmp_path):
+    """One set has no target, and one plane, whose concentration is unknown."""
+    radius = {"law": "constant", "value": 0.004}
+    orientation = {"law": "constant", "dip": 40, "dip_direction": 100}
+    discs = {"kind": "discs", "number": 6, "radius": radius, "orientation": orientation}
+    plane = {"kind": "planes", "dip": 5, "dip_direction": 0, "spacing": 0.02}
+    sets = {"a": discs, "b": {**plane, "origin": [0.0, 0.0, 0.006]}}
+    cut = flexpm.Specimen.box(0.009, 0.009, 0.012).with_network({"seed": 3, "set": sets})
+    law = {"normal_stiffness": 1e13, "shear_stiffness": 5e12, "friction": 0.5, "cohesion": 1e7}
+    rock = flexpm.materials.load("augig3d-calibrated", solid=True)
+    rock = rock.with_set({f"joint.{name}.{key}": law[key] for name in sets for key in law})
+    flexpm.run("tension", cut, rock, max_strain=2e-6, out=tmp_path)
+    content = json.loads((tmp_path / "result.json").read_text())
+    assert list(validator.iter_errors(content)) == []
+    assert content["networks"]["b"]["concentration"] is None
+    content["networks"]["b"]["p10_x"] = "many"
+    assert list(validator.iter_errors(content))

@@ -256,9 +256,7 @@ def run_map(
     """
     if not len(result.curve):
         return None
-    specimen = (result.inputs or {}).get("specimen") or {}
-    names = tuple(specimen.get("joint_names") or ())
-    drawing = replace(read_state(folder / "specimen.vtu"), joint_names=names)
+    drawing = replace(read_state(folder / "specimen.vtu"), joint_names=result.joint_names)
     shown = rows if rows is not None and len(rows) else None
     after = _state_after(folder, drawing) if turns else None
     try:
